@@ -1,4 +1,4 @@
-//! From a scene to what the machines run.
+//! Front end, checks, path tracer and compiler: from a scene to the oracle that the machines run.
 
 #![forbid(unsafe_code)]
 

@@ -10,13 +10,13 @@
 //! undo compare, undo compute
 //! ```
 //!
-//! The colour is held in units of the channel's proven bound, so that it is a number in [0, 1]
-//! whatever the scene's radiances; `colour'` is it rounded to a step `2^-c` (to the nearest under
-//! `midpoints`, up under `edges`), which makes the comparison one of integers:
-//! `#{y < 2^c : y < colour'} = min(colour', 2^c)` of a path's basis states are good.
+//! The colour is in units of the channel's proven bound, so it is a number in [0, 1] for all radiances.
+//! `colour'` is the colour rounded to a step `2^-c` (to the nearest under `midpoints`, up under
+//! `edges`), so that the comparison is one of integers: `#{y < 2^c : y < colour'} = min(colour', 2^c)`
+//! of a path's basis states are good.
 //!
-//! One program serves all pixels of a film: what differs between them are classical parameters
-//! ([`crate::compile::PixelWord`]), loaded by Xs.
+//! One program serves all pixels of a film. The differences between pixels are classical parameters
+//! ([`crate::compile::PixelWord`]), which X gates load.
 
 mod bound;
 mod budget;
@@ -71,20 +71,20 @@ pub fn luminance(colour: &[f64; 3]) -> f64 {
     LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
 }
 
-/// How a scene is compiled, where that differs from what the scene says.
+/// Options of compilation, which may differ from the scene's.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// What is undone when; by the scene's `circuit.uncompute` unless set.
+    /// The uncomputation strategy; the scene's `circuit.uncompute` unless set.
     pub strategy: Option<Strategy>,
-    /// What is done to make the program cheaper.
+    /// The passes that make the program cheaper.
     pub passes: Passes,
-    /// The class of the pixels that it is for. The default serves all pixels; that of a class has
-    /// the class's scale.
+    /// The class of the pixels that the oracle is for. The default serves all pixels; the oracle of a
+    /// class has the class's scale.
     pub class: PixelClass,
 }
 
 impl Options {
-    /// What is undone when in circuits of `scene`.
+    /// The uncomputation strategy of circuits of `scene`.
     ///
     /// # Errors
     /// As [`Oracle::new`]: `uncompute: auto` tries several.
@@ -114,17 +114,17 @@ impl Default for Options {
     }
 }
 
-/// Why a scene has no oracle.
+/// The reason why a scene has no oracle.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum OracleError {
     /// The program cannot be built.
     Build(BuildError),
-    /// The scene's sequence cannot be made.
+    /// The scene's sample sequence cannot be constructed.
     Sampling(SamplingError),
-    /// More faces than a table holds that is looked up by a face's number.
+    /// The scene has more faces than a table holds whose address is a face's number.
     TooManyFaces {
-        /// How many faces the scene has.
+        /// Number of faces of the scene.
         faces: usize,
     },
 }
@@ -157,7 +157,7 @@ pub struct Channel {
     pub number: usize,
     /// The colour, in units of `scale 2^-fraction`.
     pub colour: Operand,
-    /// How many of the comparator's thresholds the colour exceeds, before it is cut to `2^c`.
+    /// Number of the comparator's thresholds that the colour exceeds, before it is clamped to `2^c`.
     pub count: Operand,
     /// The proven bound on a path's colour, in radiance.
     pub scale: f64,
@@ -168,7 +168,7 @@ pub struct Channel {
 pub struct Oracle {
     /// The program that computes the colours.
     pub program: Program,
-    /// What the program's parameters hold in each pixel.
+    /// The values of the program's parameters, as functions of the pixel.
     pub parameters: Vec<PixelWord>,
     /// The channels whose colours the program computes.
     pub channels: Vec<Channel>,
@@ -176,20 +176,19 @@ pub struct Oracle {
     pub id: RegisterId,
     /// The register of the comparator.
     pub comparator: RegisterId,
-    /// The register of what the first ray meets, if that is given: see
-    /// [`Oracle::given_primary_hit`].
+    /// The register of the first ray's hit, if the hit is an input: see [`Oracle::given_primary_hit`].
     pub nearest: Option<RegisterId>,
     /// The register of the outcome of the comparison, whose phase is flipped.
     pub flag: RegisterId,
-    /// How many fraction bits every number has.
+    /// Number of fraction bits of every number.
     pub fraction: u32,
     /// The paths of a pixel.
     pub points: PathPoints,
     /// Columns and rows of the film.
     pub film: [u32; 2],
-    /// Which named values are in registers once all is computed, by name and ray.
+    /// The named values that are in registers after compute, by name and ray.
     pub places: Vec<NamedPlace>,
-    /// How many operations the tracer asked for, and how many of these were there already.
+    /// Number of operations that the tracer requested, and number of these that reused an earlier one.
     pub sharing: [u64; 2],
 }
 
@@ -197,13 +196,13 @@ impl Oracle {
     /// The oracle of one channel: 0 red, 1 green, 2 blue.
     ///
     /// # Errors
-    /// A scene whose numbers no register can hold.
+    /// The scene has numbers that no register can hold.
     pub fn new(scene: &ValidScene, channel: usize, options: Options) -> Result<Self, OracleError> {
         Self::compile(scene, [channel], options)
     }
 
-    /// One program for all three channels, which share their paths. What machines run for a
-    /// picture; a channel's own oracle is a part of it.
+    /// One program for all three channels, which share their paths. Machines run it for a picture; a
+    /// channel's own oracle is a part of it.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -211,9 +210,9 @@ impl Oracle {
         Self::compile(scene, [0, 1, 2], options)
     }
 
-    /// [`Oracle::rgb`] of paths whose primary hits were found before: the number of the face in the
-    /// scene's [`NearestOracle`], or the number of its faces for none, is an input. Everything
-    /// after the primary hit is traced as ever. A scene without faces has no such input.
+    /// The program of [`Oracle::rgb`] for paths whose primary hits are known. An input holds the number
+    /// of the primary hit's face in the scene's [`NearestOracle`], or the number of faces for none. The
+    /// rest of the path is traced as usual. A scene without faces has no such input.
     ///
     /// # Errors
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
@@ -223,9 +222,9 @@ impl Oracle {
         Ok(recording.oracle(&[0, 1, 2]))
     }
 
-    /// The oracles of all channels, each as [`Oracle::new`] makes it but for the numbers of its
-    /// registers and [`Oracle::sharing`], which is that of all; and the one of all three together:
-    /// traced once.
+    /// The oracles of the three channels, and the oracle of all three together, from one recording. The
+    /// oracle of a channel is as [`Oracle::new`] makes it, except for the numbers of its registers and
+    /// [`Oracle::sharing`], which is that of all channels.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -234,9 +233,10 @@ impl Oracle {
         Ok((channels, rgb))
     }
 
-    /// The oracle of all three channels together, and what a call of each channel's oracle costs, all
-    /// for pixels of the class that any pixel may be of: those of [`Oracle::all`], sooner, and on all
-    /// cores. Of a scene with such pixels, the costs are those of that class in [`oracle_costs`].
+    /// The oracle of all three channels together, and the cost of a call of each channel's oracle. All
+    /// are for pixels of the class that any pixel may be of. They are those of [`Oracle::all`], but
+    /// computed sooner, on all cores. If the scene has pixels of that class, the costs are those of the
+    /// class in [`oracle_costs`].
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -278,8 +278,8 @@ impl Oracle {
         Ok(Recording::with_luminance(scene, options)?.oracle(&[3]))
     }
 
-    /// One program for all three channels and, after them, their luminance: what a machine runs
-    /// that counts the luminance and looks at the colours of the paths that it measures.
+    /// One program for all three channels and, after them, their luminance. A machine that runs it
+    /// counts the luminance and reads the colours of the paths that it measures.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -304,13 +304,13 @@ impl Oracle {
             .collect()
     }
 
-    /// How many qubits a call needs: the most in use at any time, channel number 0 being compared.
+    /// Number of qubits that a call needs: the maximum in use at any time, for channel number 0.
     pub fn qubits(&self) -> u32 {
         lower::most_qubits(&self.upto_flip())
     }
 
-    /// Compute, and then the comparison and the flip of channel number 0. Uncompute holds at each
-    /// instruction what compute does.
+    /// Compute, and then the comparison and the flip of channel number 0. Uncompute needs the same
+    /// qubits as compute at each instruction, so it is not included.
     fn upto_flip(&self) -> Program {
         let mut upto = self.flip(0);
         let compute = self.program.instructions.iter().copied();
@@ -319,7 +319,7 @@ impl Oracle {
         upto
     }
 
-    /// How many qubits the comparator has.
+    /// Number of qubits of the comparator.
     pub fn comparator_bits(&self) -> u32 {
         self.program.width(self.comparator)
     }
@@ -333,14 +333,14 @@ impl Oracle {
         ]
     }
 
-    /// How many basis states are good of a path whose register `count` reads as `count`: of its
-    /// `2^c` comparators, those that the colour exceeds.
+    /// Number of good basis states of a path whose register `count` reads as `count`. These are the
+    /// comparators, of its `2^c`, that the colour exceeds.
     pub fn good(&self, count: i64) -> u64 {
         count.clamp(0, 1 << self.comparator_bits()).cast_unsigned()
     }
 
-    /// Compares with the comparator, flips the phase, and undoes the comparison: what stands
-    /// between compute and uncompute of channel number `channel` of [`Oracle::channels`].
+    /// Compares with the comparator, flips the phase, and undoes the comparison: the part between
+    /// compute and uncompute of channel number `channel` of [`Oracle::channels`].
     pub fn flip(&self, channel: usize) -> Program {
         let mut program = self.program.clone();
         let block = BlockId(program.blocks.len() as u32);
@@ -362,11 +362,11 @@ impl Oracle {
         program
     }
 
-    /// What [`Oracle::flip`] consists of.
+    /// The operations of [`Oracle::flip`], and their order.
     fn flip_steps(&self, channel: usize) -> FlipSteps {
         let count = self.channels[channel].count;
         if let (0, Operand::Word(word)) = (self.comparator_bits(), count) {
-            // Without comparators the count is one bit, whose phase is flipped as it stands.
+            // Without a comparator the count is one bit: flip the phase of that bit.
             let bit = Bit::at(word.register, word.offset);
             return FlipSteps {
                 ops: vec![Op::Phase { bit }],
@@ -402,7 +402,7 @@ impl Oracle {
 
 struct FlipSteps {
     ops: Vec<Op>,
-    /// Which of them run, one after another, and whether backwards.
+    /// Indices of the operations to run, in order, each with true if it is inverted.
     order: &'static [(u32, bool)],
 }
 
@@ -420,12 +420,12 @@ fn register_of(operand: Operand) -> Option<RegisterId> {
 }
 
 impl Builder<'_> {
-    /// A colour's register, and how many of `2^bits` thresholds it exceeds.
+    /// The register of a colour, and the number of the `2^bits` thresholds that the colour exceeds.
     fn counted(&mut self, colour: Real, bits: u32, at: ComparatorAt) -> (Operand, Operand) {
         self.enter_count();
         let fraction = self.fraction_bits();
         let (operand, _) = self.operand_of(colour);
-        // x > (y + s) 2^k is floor((x + r) / 2^k) > y, with r = 2^k - 1 less the threshold's part.
+        // x > (y + s) 2^k is equivalent to floor((x + r) / 2^k) > y, with r = 2^k - 1 - s 2^k.
         let step = fraction.saturating_sub(bits);
         let rise = match at {
             ComparatorAt::Midpoints if step > 0 => (1_i64 << (step - 1)) - 1,
@@ -433,7 +433,7 @@ impl Builder<'_> {
             ComparatorAt::Edges => (1 << step) - 1,
         };
         if let Operand::Constant(value) = operand {
-            // A constant is not rounded as registers are.
+            // Scaling does not round a constant down, as it does a register.
             let count = (value + rise) >> step << bits.saturating_sub(fraction);
             self.leave();
             return (operand, Operand::Constant(count));

@@ -1,4 +1,4 @@
-//! The JSON Schema (draft-07) of scenes, for editors: the same definitions as the types.
+//! The JSON Schema (draft-07) of scenes, for editors, from the same definitions as the types.
 
 use crate::scene::Scene;
 use crate::scene::shape::Part;

@@ -1,4 +1,4 @@
-//! [`Arith`], by recording.
+//! The implementation of [`Arith`] that records a program.
 
 use super::names::Nameable;
 use super::value::{Affine, Bool, Index, Real, Value, bits_of};
@@ -49,7 +49,7 @@ impl Arith for Builder<'_> {
         Real::constant(self.farthest(most))
     }
     fn inside(&mut self, low: f64, value: Real, high: f64) -> Bool {
-        // Outwards by what a hit's coordinates may be off.
+        // Allow one ulp outwards at each end: a hit's coordinates may be off by that much.
         let reach = self.ulp();
         let mut inside = Bool::Constant(true);
         if low.is_finite() {
@@ -90,7 +90,7 @@ impl Arith for Builder<'_> {
         self.over(a, b, most)
     }
     fn function(&mut self, function: Function, a: Real) -> Real {
-        // Rounding takes cosines beyond 1, where there is no angle.
+        // Rounding can take a cosine beyond ±1, where the angle is undefined.
         let is_angle = matches!(function, Function::Asin | Function::Acos);
         let known = |x: f64| if is_angle { x.clamp(-1.0, 1.0) } else { x };
         self.smooth(a, |x| function.value(known(x)))
@@ -113,7 +113,7 @@ impl Arith for Builder<'_> {
     }
 
     fn traced(&mut self, depth: usize, segment: Segment<Self>) {
-        // Rays come in their order, each once.
+        // Rays arrive in the order of their depths. A second call for a ray is ignored.
         if self.segments.len() == depth {
             self.segments.push(segment);
         }
@@ -190,8 +190,8 @@ impl Arith for Builder<'_> {
         let Operand::Word(word) = self.choice_operand(index) else {
             return Real::constant(0.5);
         };
-        // The lowest bits of an index that is finer than the numbers are dropped; the half then is
-        // half of what is left.
+        // If the index has more bits than a number has fraction bits, its lowest bits are dropped.
+        // The half cell that is added below then belongs to the coarser cell.
         let (word, kept) = if bits <= fraction {
             let shift = fraction - bits;
             (Word { shift, ..word }, bits)
@@ -206,7 +206,7 @@ impl Arith for Builder<'_> {
             (narrow, fraction)
         };
         let table = self.choices[node as usize].table.clone();
-        // What has its bits already is not looked up, unless by very few.
+        // The index's bits are in a register already: keep a table only if its address is short.
         let table = table.filter(|table| bits <= fraction && table.address.len() <= 6);
         let cells = (1_u64 << bits) as f64;
         let table = table.map(|table| table.map(|entry| entry / cells));
@@ -331,7 +331,8 @@ impl Builder<'_> {
         }
         let (x, y) = (self.plain(a), self.plain(b));
         let constant = |operand| matches!(operand, Operand::Constant(_));
-        // A sign that both have stays outside; so does one whose partner is a constant.
+        // If both are negated, or one is negated and the other is a constant, negate the result
+        // instead.
         let outside =
             (x.negated && (y.negated || constant(y.operand))) || (y.negated && constant(x.operand));
         let ((x, xr), (y, yr)) = if outside {

@@ -1,4 +1,4 @@
-//! Small unsigned integers: which face, which surface, which cell.
+//! Small unsigned integers: indices of faces, surfaces and cells.
 
 use super::table::joined;
 use super::value::{Bool, Choice, Index, Real, Tabulated};
@@ -6,7 +6,7 @@ use super::{Builder, MAX_ADDRESS};
 use qrt_circuit::{Op, Operand, Type, Word};
 use std::rc::Rc;
 
-/// Bits of the numbers below `bound`.
+/// Number of bits that hold every integer below `bound`.
 fn bits_below(bound: u32) -> u32 {
     32 - bound.saturating_sub(1).leading_zeros()
 }
@@ -15,7 +15,8 @@ impl Builder<'_> {
     /// The integer that `word` holds.
     pub(super) fn choice_of(&mut self, word: Word) -> Index {
         let table = (word.width <= MAX_ADDRESS).then(|| {
-            // Each face's is as long as there are faces: they share it.
+            // Words of one width share these entries: each table of a face index is as long as the
+            // number of faces.
             let counted = || (0..1_u32 << word.width).map(f64::from).collect();
             let entries = self.counted.entry(word.width).or_insert_with(counted);
             Tabulated {
@@ -32,7 +33,7 @@ impl Builder<'_> {
         Index::Node(self.choices.len() as u32 - 1)
     }
 
-    /// The code of a constant: that of none follows the last face.
+    /// The code of the constant `value`; the code of `u32::MAX`, none, follows the last face.
     pub(super) fn code(&self, value: u32) -> u32 {
         if value == u32::MAX {
             self.target.faces
@@ -110,7 +111,8 @@ impl Builder<'_> {
             self.choice_table(b),
         ) {
             let width = bits_below(self.choice_bound(a).max(self.choice_bound(b)));
-            // Which of the two first, then its value.
+            // `joined` combines two tables, not three: -1 marks the rows of `b` before `b` is
+            // joined.
             let picked = joined(&c, &x, width, |c, x| if c == 0.0 { -1.0 } else { x });
             let table = picked
                 .and_then(|picked| joined(&picked, &y, width, |x, y| if x < 0.0 { y } else { x }));
@@ -135,19 +137,19 @@ impl Builder<'_> {
         index
     }
 
-    /// A truth value that depends on an integer alone.
+    /// The truth value `holds(a)`.
     pub(super) fn test(&mut self, a: Index, holds: impl Fn(u32) -> bool) -> Bool {
         match self.choice_table(a) {
             Some(table) => {
                 let table = table.map(|entry| f64::from(holds(entry as u32)));
                 self.tabulated_truth(table)
             }
-            // Indices too wide for a table are sample coordinates, which nobody tests.
+            // Only sample coordinates are too wide for a table, and no code tests them.
             None => Bool::Constant(false),
         }
     }
 
-    /// A number that depends on an integer alone. What lies beyond `rows` never occurs.
+    /// The number `value(a)`. Table entries from `rows` on, which never occur, repeat entry 0.
     pub(super) fn row(&mut self, a: Index, rows: usize, value: impl Fn(usize) -> f64) -> Real {
         let Some(table) = self.choice_table(a) else {
             return Real::constant(0.0);
@@ -159,7 +161,7 @@ impl Builder<'_> {
         self.tabulated(table)
     }
 
-    /// An integer that depends on an integer alone.
+    /// The integer `entries[a]`, by table.
     pub(super) fn entry_of(&mut self, a: Index, entries: &[u32]) -> Index {
         let Some(table) = self.choice_table(a) else {
             return Index::Constant(0);
@@ -170,7 +172,8 @@ impl Builder<'_> {
             f64::from(self.code(entry))
         });
         let index = self.tabulated_choice(looked_up);
-        // Fewer bits than it is looked up by: what depends on it has smaller tables by its own.
+        // The result has fewer bits than its address: put it into a register, so that tables of
+        // values that depend on it have fewer address bits.
         let own = bits_below(self.choice_bound(index));
         if own as usize + 1 < table.address.len()
             && let Operand::Word(word) = self.choice_operand(index)

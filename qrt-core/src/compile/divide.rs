@@ -8,14 +8,14 @@ use qrt_circuit::{Bit, Op, Operand, Type, Word};
 struct Quotient {
     /// `floor(|a| / |b|)`, in ulps.
     value: Real,
-    /// Whether the quotient fits its register. Elsewhere the value means nothing.
+    /// True if the quotient fits its register. Otherwise `value` is meaningless.
     fits: Bool,
     /// The greatest value of its register, in ulps.
     most: i64,
 }
 
 impl Builder<'_> {
-    /// The bound on `|a / b|` that the caller or the intervals give.
+    /// The bound on `|a / b|`: `most`, or the bound that the intervals give if it is smaller.
     fn quotient_bound(&mut self, a: Real, b: Real, most: f64) -> f64 {
         let (a, b) = (self.range(a), self.range(b));
         let divisor = if b[0] > 0 {
@@ -30,7 +30,8 @@ impl Builder<'_> {
     }
 
     fn quotient(&mut self, a: Word, b: Word, most: f64, range: [i64; 2]) -> Quotient {
-        // Quotient bits after the point: as many as fit below the dividend.
+        // The dividend is shifted left by the number of fraction bits of the quotient. The shift is
+        // smaller if the dividend would not fit `MAX_BITS` bits.
         let fraction = self.fraction();
         let lost = (a.bits() + fraction).saturating_sub(MAX_BITS);
         let lost = lost.min(fraction);
@@ -59,7 +60,7 @@ impl Builder<'_> {
             Some(node) if lost > 0 => self.shifted(node, lost as i32),
             _ => value,
         };
-        // The intervals may prove that it fits.
+        // The intervals may prove that the quotient fits.
         let fits = if range[1] >> lost <= all {
             Bool::Constant(true)
         } else {
@@ -76,7 +77,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A number that is at least 0, as the unsigned word of its magnitude.
+    /// The unsigned word of a number that is at least 0, and its interval; none without bits.
     fn unsigned(&mut self, a: Real) -> Option<(Word, [i64; 2])> {
         let (operand, range) = self.operand(a);
         let word = match operand {
@@ -85,7 +86,7 @@ impl Builder<'_> {
         };
         let range = range.map(|end| end.max(0));
         if word.signed {
-            // The sign bit is 0 wherever the number is meant.
+            // The sign bit is 0 on every path that uses the number.
             if word.width == 1 {
                 return None;
             }
@@ -120,7 +121,7 @@ impl Builder<'_> {
         [0, most.min(i64::MAX.into()) as i64]
     }
 
-    /// `a / b`, held at `±most` where it would be beyond.
+    /// `a / b`, clamped: to `±most` if it is a table, otherwise to the greatest value of its register.
     pub(super) fn over(&mut self, a: Real, b: Real, most: f64) -> Real {
         if let Some(divisor) = b.as_constant() {
             return self.times_constant(a, 1.0 / divisor);
@@ -158,15 +159,15 @@ impl Builder<'_> {
         self.signed(held, sign)
     }
 
-    /// Whether `a / b` is at least 0 and fits below `most`, and the quotient where it does. A dividend
-    /// that is zero whatever happens is not ahead: it is a ray that starts there.
+    /// Returns whether `a / b` is at least 0 and fits below `most`, and the quotient if so. A dividend
+    /// that is the constant 0 is not ahead: the ray starts on the plane.
     pub(super) fn ahead_of(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
         if a.as_constant() == Some(0.0) {
             return (Bool::Constant(false), a);
         }
         if let Some(divisor) = b.as_constant() {
             if divisor == 0.0 {
-                // A ray along the plane.
+                // The ray is parallel to the plane.
                 return (Bool::Constant(false), Real::constant(0.0));
             }
             let quotient = self.times_constant(a, 1.0 / divisor);
@@ -175,14 +176,15 @@ impl Builder<'_> {
             let near = self.is_less(quotient, reach);
             return (self.both(behind.negated(), near), quotient);
         }
-        // One sign for both.
+        // Flip both signs where `b` is negative, so that the divisor is positive.
         let sign = self.negative_sign(b);
         let (a, b) = (self.signed(a, sign), self.signed(b, sign));
         let behind = self.negative_sign(a);
         let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
             return (Bool::Constant(false), Real::constant(0.0));
         };
-        // What lies behind is read without its sign, and may look larger than anything ahead.
+        // A negative dividend is read without its sign bit. Its quotient may exceed every quotient
+        // ahead.
         let range = if behind == Bool::Constant(false) {
             Self::quotient_range(ar, br, self.fraction())
         } else {

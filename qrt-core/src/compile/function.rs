@@ -1,9 +1,9 @@
 //! Smooth functions of a number that has too many bits for a table: piecewise polynomials.
 //!
-//! The top bits of the argument choose a piece, the rest, t in [0, 1), is the place on it, and the
-//! value is `c0 + t (c1 + t c2)` with coefficients by table. Pieces are halved until the greatest
-//! error at their quarter points is below half a unit in the last place, or there are
-//! `2^MOST_PIECES` of them.
+//! The top bits of the argument select a piece. The other bits are the position t in [0, 1) on the
+//! piece. The value is `c0 + t (c1 + t c2)`, with coefficients from a table. The pieces are halved
+//! until the greatest error at their quarter points is at most half a unit in the last place, or
+//! until there are `2^MOST_PIECES` pieces.
 
 use super::value::{Real, Tabulated};
 use super::{BuildError, Builder, MAX_BITS};
@@ -11,10 +11,10 @@ use qrt_circuit::{Operand, Word};
 use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Most bits that choose a piece.
+/// Most bits that select a piece.
 const MOST_PIECES: u32 = 10;
 
-/// Arguments of no more bits have a table of their own.
+/// Most bits of an argument whose function is one plain table.
 const PLAIN_TABLE: u32 = 9;
 
 /// The parabola through a piece's ends and its middle.
@@ -42,7 +42,7 @@ fn evaluate([c0, c1, c2]: [f64; 3], t: f64) -> f64 {
 }
 
 impl Builder<'_> {
-    /// `f(a)`, for a function that is smooth but for single points.
+    /// `f(a)`, for a function `f` that is smooth except at isolated points.
     pub(super) fn smooth(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Real {
         if let Some(constant) = a.as_constant() {
             let value = f(constant);
@@ -62,7 +62,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `f(word)`, of which only numbers in `range` occur.
+    /// `f(word)`, if the values of `word` are in `range`.
     pub(super) fn fitted(&mut self, word: Word, range: [i64; 2], f: impl Fn(i64) -> f64) -> Real {
         let word = Word { shift: 0, ..word };
         let bits = word.width;
@@ -72,8 +72,8 @@ impl Builder<'_> {
             return Real::constant(0.0);
         }
         let sign = word.signed;
-        // The number that `code`, the word's bits, stands for; those that don't occur stand for
-        // the nearest that does.
+        // The number that the word's bits, `code`, stand for, clamped to `range`: codes outside do
+        // not occur.
         let number = |code: u64| {
             let negative = sign && code >> (bits - 1) & 1 == 1;
             let value = if negative {
@@ -141,7 +141,7 @@ impl Builder<'_> {
         };
         let columns = [column(0), column(1), column(2)];
         let [c0, c1, c2] = columns.map(|column| self.tabulated(column));
-        // The place on the piece; of its bits, the top ones that a number holds.
+        // The position on the piece: its top bits, at most the number of fraction bits.
         let kept = rest.min(self.fraction());
         let place = Word {
             offset: word.offset + rest - kept,
@@ -169,7 +169,7 @@ impl Builder<'_> {
         if let Some(table) = self.tabulate_pair(a, b, u32::MAX, |a, b| libm::pow(a.max(0.0), b)) {
             return table;
         }
-        // Below one ulp there is nothing to tell the logarithm from that of one ulp.
+        // Numbers below one ulp get the logarithm of one ulp: the format cannot distinguish them.
         let least = self.ulp();
         let log = self.smooth(a, |a| libm::log(a.max(least)));
         let exponent = self.times(b, log);

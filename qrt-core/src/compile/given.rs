@@ -1,10 +1,11 @@
-//! What a program is given in registers, and how it is compared with what it computes.
+//! Inputs of a program in registers, and their comparison with computed values.
 
 use super::value::{Affine, Bool, Index, Real, Value};
 use super::{Bit, Builder, Op, Operand, RegisterId, Role, StageName, Type};
 
 impl Builder<'_> {
-    /// An input register that holds a number from 0 to `most`, and the number.
+    /// Creates an input register for a number from 0 to `most`. Returns the register and the
+    /// number.
     pub(crate) fn given_number(&mut self, name: &str, role: Role, most: f64) -> (RegisterId, Real) {
         let most = self.rounded(most);
         let (ty, width, signed) = self.shape([0, most]);
@@ -17,7 +18,8 @@ impl Builder<'_> {
         (register, number)
     }
 
-    /// An input register of `width` bits that holds an integer, and the integer.
+    /// Creates an input register of `width` bits for an integer. Returns the register and the
+    /// integer.
     pub(crate) fn given_index(
         &mut self,
         name: &str,
@@ -52,14 +54,16 @@ impl Builder<'_> {
         matches!(a, Bool::Node { .. }).then(|| self.bit(a))
     }
 
-    /// What follows belongs to the comparison with the nearest so far, until
-    /// [`crate::tracer::Arith::leave`].
+    /// Opens the block of the comparison with the nearest hit so far.
+    /// [`crate::tracer::Arith::leave`] closes the block.
     pub(crate) fn enter_nearer(&mut self) {
         self.begin(StageName::Nearer, None);
     }
 
-    /// A number without its constant, and a bound that is looked up for it: moved by the constant,
-    /// and one unit outwards in the direction of `sign`. Neither costs an addition.
+    /// Returns the number without its constant, and the bound to compare it with: row `row` of
+    /// `table`, minus the constant, plus one ulp in the direction of `sign`. The table contains
+    /// both shifts, so neither costs an addition. A number whose offset depends on the pixel keeps
+    /// its offset.
     pub(super) fn beside(
         &mut self,
         value: Real,

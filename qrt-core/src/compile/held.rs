@@ -1,22 +1,22 @@
-//! Values in registers of their own, in the format that is asked for.
+//! Values in registers of their own, in the format that the caller specifies.
 
 use super::value::{Bool, Index, Real};
 use super::{Builder, Op, Operand, RegisterId, StageName, Type, Word};
 use crate::tracer::Segment;
 
 impl<'a> Builder<'a> {
-    /// The ray of this depth and what it meets; none if no path goes so far.
+    /// The ray after `depth` bounces and its hit; none if no path has this ray.
     pub(crate) fn segment(&self, depth: usize) -> Option<Segment<Builder<'a>>> {
         self.segments.get(depth).copied()
     }
 
-    /// What follows belongs to a predicate, until [`crate::tracer::Arith::leave`].
+    /// Opens the block of a predicate. [`crate::tracer::Arith::leave`] closes the block.
     pub(crate) fn enter_predicate(&mut self) {
         self.begin(StageName::Predicate, None);
     }
 
-    /// The number in a register of its own, times `2^shift` in units of the last place and rounded
-    /// down: its lowest `width` bits, which are to hold it.
+    /// Copies `a 2^shift`, in units in the last place and rounded down, to a register of its own.
+    /// The register keeps the lowest `width` bits; the caller makes sure that the number fits.
     pub(crate) fn number_in(
         &mut self,
         a: Real,
@@ -32,7 +32,7 @@ impl<'a> Builder<'a> {
         self.own(operand, (ty, width))
     }
 
-    /// The truth value in a register of its own.
+    /// Copies the truth value to a register of its own.
     pub(crate) fn truth_in(&mut self, a: Bool) -> RegisterId {
         let target = (Type::Bool, 1);
         let Bool::Node { .. } = a else {
@@ -44,13 +44,13 @@ impl<'a> Builder<'a> {
         self.emit_anew(Op::Select { when, a, b, target })[0]
     }
 
-    /// The integer in a register of its own, of `width` bits.
+    /// Copies the integer to a register of its own, of `width` bits.
     pub(crate) fn index_in(&mut self, a: Index, width: u32) -> RegisterId {
         let operand = self.choice_operand(a);
         self.own(operand, (Type::UInt, width))
     }
 
-    /// A register that nothing else is in: two names are never one register.
+    /// Copies `operand` to a register that is not shared: two names never refer to one register.
     fn own(&mut self, operand: Operand, target: (Type, u32)) -> RegisterId {
         self.emit_anew(match operand {
             Operand::Word(a) => Op::Copy { a, target },
@@ -74,7 +74,7 @@ fn shifted(word: Word, by: i32) -> Operand {
     if dropped >= word.width && !word.signed {
         return Operand::Constant(0);
     }
-    // Of a signed number at least its sign is left.
+    // A signed number keeps at least its sign bit.
     let dropped = dropped.min(word.width - 1);
     Operand::Word(Word {
         offset: word.offset + dropped,

@@ -1,10 +1,10 @@
-//! What the compiler knows registers and blocks of its programs as, and the words of a pixel.
+//! Roles of registers, labels of blocks, and the words of a pixel.
 
 use crate::sampling::{Coordinate, PathPoints, Square};
 use qrt_circuit::{Block, Register, Tag, Type};
 use std::fmt;
 
-/// What a register is for.
+/// The purpose of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     /// The path index, in superposition.
@@ -22,7 +22,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// All of them, in the order in which tables show them.
+    /// All roles, in the order in which tables show them.
     pub const ALL: [Self; 6] = [
         Self::Id,
         Self::Comparator,
@@ -32,7 +32,8 @@ impl Role {
         Self::Flag,
     ];
 
-    /// A register's role. Garbage has a type of its own; work is what has no tag.
+    /// Returns a register's role. Garbage has a type of its own; a register without a known tag is
+    /// work.
     pub fn of(register: &Register) -> Self {
         let tagged = |role: &Self| role.tag() == register.tag;
         match register.ty {
@@ -41,7 +42,7 @@ impl Role {
         }
     }
 
-    /// The tag by which programs carry it.
+    /// The tag that marks the role in programs.
     pub const fn tag(self) -> Tag {
         Tag(match self {
             Self::Work => 0,
@@ -67,18 +68,18 @@ impl fmt::Display for Role {
     }
 }
 
-/// A stage of the oracle, or a part of one: what a block of its program computes.
+/// A stage of the oracle, or a part of a stage, that a block of the oracle's program computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StageName {
     /// The whole oracle: the root block.
     Oracle,
-    /// The paper's *Generate Ray*: the camera's ray, or what a surface scatters.
+    /// The paper's *Generate Ray*: the camera's ray, or the ray that a surface scatters.
     GenerateRay,
     /// The paper's *Find Intersection*: the nearest hit of a ray.
     FindIntersection,
-    /// A point on a lamp, and what of its light goes to the viewer if nothing stands between.
+    /// A point on a lamp, and the part of its light that goes to the viewer if unoccluded.
     SampleLight,
-    /// Whether anything stands between a vertex and the point on a lamp.
+    /// The test for anything between a vertex and the point on a lamp.
     Shadow,
     /// One convex body (by number), within a search.
     Body(u32),
@@ -86,7 +87,7 @@ pub enum StageName {
     Plane(u32),
     /// One primitive (by number), within a search.
     Primitive(u32),
-    /// On which side a ray meets a surface.
+    /// The side on which a ray meets a surface.
     Side,
     /// A sampled direction in the local frame, within a ray.
     Sample,
@@ -98,17 +99,17 @@ pub enum StageName {
     Count,
     /// The comparison with the nearest hit so far.
     Nearer,
-    /// What stands between compute and uncompute.
+    /// The comparison and the phase flip, between compute and uncompute.
     CompareAndFlip,
-    /// What the frame does at a hit, between blocks; no block of its own.
+    /// The frame's operations at a hit, between blocks; no block of its own.
     Surface,
-    /// What the frame does before the first block; no block of its own.
+    /// The frame's operations before the first block; no block of its own.
     Frame,
     /// The comparison of the colour with the comparator, or its undoing; no block of its own.
     Compare,
     /// The phase flip.
     Flip,
-    /// What a predicate reads of a path, and the predicate.
+    /// The path's values that a predicate reads, and the predicate.
     Predicate,
 }
 
@@ -152,7 +153,7 @@ impl fmt::Display for StageName {
     }
 }
 
-/// Which block of the oracle's program it is.
+/// The identity of a block of the oracle's program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Label {
     /// The stage that the block computes.
@@ -162,7 +163,7 @@ pub struct Label {
 }
 
 impl Label {
-    /// The stages without a number that blocks can be, by their number in a tag.
+    /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
     const PLAIN: [StageName; 13] = [
         StageName::Oracle,
         StageName::GenerateRay,
@@ -179,7 +180,7 @@ impl Label {
         StageName::Predicate,
     ];
 
-    /// A block's label. Blocks without a tag are whole programs.
+    /// Returns a block's label. A block without a tag is a whole program.
     pub fn of(block: &Block) -> Self {
         let Tag(bits) = block.tag;
         let [number, depth, kind] = [
@@ -200,8 +201,8 @@ impl Label {
         }
     }
 
-    /// The tag by which programs carry it: the stage's number, the depth and one, the kind of
-    /// stage.
+    /// The tag that marks the label in programs. Bits 0 to 31 are the stage's number, bits 32 to 55
+    /// are `depth + 1` or 0 for none, bits 56 to 63 are the kind of stage.
     pub fn tag(self) -> Tag {
         let (kind, number) = match self.stage {
             StageName::Plane(number) => (0xff, number),
@@ -217,7 +218,7 @@ impl Label {
         Tag(u64::from(number) | depth << 32 | kind << 56)
     }
 
-    /// The block that carries it.
+    /// Creates the block with this label.
     pub fn block(self, parent: Option<qrt_circuit::BlockId>) -> Block {
         Block {
             parent,
@@ -228,14 +229,14 @@ impl Label {
 }
 
 /// A classical parameter of an oracle: a word that depends on the pixel alone. The circuit of a
-/// pixel has it built in: it is loaded by Xs.
+/// pixel contains the word: X gates load it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PixelWord {
-    /// The XOR shift of a sample coordinate, its top `bits` bits.
+    /// The top `bits` bits of the XOR shift of a sample coordinate.
     Shift {
         /// The coordinate.
         coordinate: Coordinate,
-        /// How many bits the coordinate has.
+        /// Number of bits of the coordinate.
         bits: u32,
     },
     /// `round((constant + along[0] column + along[1] row) 2^fraction) mod 2^width`
@@ -244,15 +245,15 @@ pub enum PixelWord {
         constant: f64,
         /// The change of the value per column and per row.
         along: [f64; 2],
-        /// How many bits are after the point.
+        /// Number of bits after the point.
         fraction: u32,
-        /// How many bits there are in all.
+        /// Number of bits in all.
         width: u32,
     },
 }
 
 impl PixelWord {
-    /// The parameter of the program that it is the value of.
+    /// The parameter of the program whose value this word is.
     pub fn parameter(&self) -> qrt_circuit::Parameter {
         let (name, width) = match *self {
             Self::Shift { coordinate, bits } => {

@@ -1,25 +1,26 @@
 //! The builder: the tracer, read as a program.
 //!
-//! It implements [`Arith`](crate::tracer::Arith) by recording what it is asked for. Real numbers
-//! become fixed-point numbers with one number of fraction bits; each is
+//! It implements [`Arith`](crate::tracer::Arith) by recording the operations that the tracer calls.
+//! Real numbers become fixed-point numbers with one common number of fraction bits. Each is
 //!
 //! ```text
 //! ± register 2^-fraction + constant + a column + b row
 //! ```
 //!
-//! so that signs, constants and what the pixel fixes cost nothing until something needs the bits.
-//! On the way:
+//! so that signs, constants and values that the pixel fixes cost nothing until an operation needs
+//! the bits. While the builder records:
 //!
 //! * **constants fold**, and products with constants become shifts and signed digits;
-//! * **equal values are shared**: an operation with the operands of an earlier one is that one;
-//! * **intervals** bound every value, and give its register the width that holds them: nothing can
-//!   overflow, whatever the path;
+//! * **equal values are shared**: an operation with the operands of an earlier one reuses its
+//!   result;
+//! * **intervals** bound every value. A register has the width that its interval needs, so nothing
+//!   can overflow on any path;
 //! * **functions of few bits** (a material's weight, a sampled coordinate's sine, the product of two
-//!   weights) stay tables until something needs their bits, and become arithmetic only where that
+//!   weights) stay tables until an operation needs their bits, and become arithmetic only where that
 //!   is cheaper;
-//! * what nothing needs in the end was never there.
+//! * operations that nothing needs in the end are left out.
 //!
-//! Rounding: constants and tables are rounded to nearest, products, quotients and roots down.
+//! Constants and tables are rounded to nearest. Products, quotients and roots are rounded down.
 
 mod arith;
 mod choice;
@@ -60,7 +61,7 @@ use value::{Affine, Choice, Truth, Value};
 
 use number::negative as negative_range;
 
-/// Most bits of any number: what an `i64` holds beside its sign.
+/// Most bits of any number: an `i64` holds it with its sign and one bit to spare.
 const MAX_BITS: u32 = 62;
 
 /// Most address bits of a table.
@@ -75,29 +76,29 @@ type Shape = (Type, u32);
 /// The shape of an operation's garbage, before its width is known.
 const GARBAGE: Shape = (Type::Scratch, 0);
 
-/// Why a scene has no circuit.
+/// The reason why a scene has no circuit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BuildError {
     /// A quotient without a bound: its divisor may be zero.
     UnboundedQuotient,
-    /// A function of a number for which it may be infinite, such as the logarithm of zero.
+    /// A function that may be infinite for its argument, such as the logarithm of zero.
     UnboundedFunction,
     /// A number that needs more than 62 bits.
     TooWide {
-        /// What kind of number it is.
+        /// The kind of number.
         what: &'static str,
-        /// How many bits it needs.
+        /// Number of bits that it needs.
         bits: u32,
-        /// How many fraction bits every number has.
+        /// Number of fraction bits of every number.
         fraction: u32,
-        /// What of a material it is on the way to, if it is of one.
+        /// The value of a material that it is computed for, if any.
         value: Option<WideValue>,
     },
 }
 
 impl BuildError {
-    /// What this says of the scene.
+    /// The corresponding problem of the scene.
     pub(crate) fn problem(&self) -> Circuit {
         match self {
             Self::UnboundedQuotient => Circuit::UnboundedQuotient,
@@ -128,12 +129,12 @@ impl std::fmt::Display for BuildError {
 
 impl std::error::Error for BuildError {}
 
-/// What a program is built for.
+/// The settings with which a program is built.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
-    /// How many fraction bits every number has.
+    /// Number of fraction bits of every number.
     pub fraction: u32,
-    /// What is undone when.
+    /// The uncomputation strategy.
     pub strategy: Strategy,
     /// The paths of a pixel.
     pub points: &'a PathPoints,
@@ -141,24 +142,24 @@ pub struct Target<'a> {
     pub film: [u32; 2],
     /// One more than the greatest number of a face that a ray can meet.
     pub faces: u32,
-    /// What is done to make the program cheaper.
+    /// The passes that make the program cheaper.
     pub passes: Passes,
 }
 
-/// What the builder does to make a program cheaper. All passes are on, unless the saving of one is
-/// to be measured.
+/// The passes with which the builder makes a program cheaper. All passes are on, unless the saving
+/// of one is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)] // Each is a pass that can be left out.
 pub struct Passes {
-    /// Whether equal values are computed once.
+    /// True if equal values are computed once.
     pub share: bool,
-    /// Whether functions of few bits stay tables where these are cheaper.
+    /// True if functions of few bits stay tables where tables are cheaper.
     pub tabulate: bool,
-    /// Whether operations that nothing needs are removed.
+    /// True if operations that nothing needs are removed.
     pub needed: bool,
-    /// Whether tables of one address become one.
+    /// True if tables of one address are merged into one.
     pub merge: bool,
-    /// Whether products of one number with several constants share sums.
+    /// True if products of one number with several constants share sums.
     pub multiples: bool,
 }
 
@@ -181,7 +182,7 @@ impl Passes {
     };
 }
 
-/// A recorder of the tracer: see [the module](self).
+/// Records the tracer as a program: see [the module](self).
 pub struct Builder<'a> {
     target: Target<'a>,
     registers: Vec<Register>,
@@ -197,31 +198,32 @@ pub struct Builder<'a> {
     choices: Vec<Choice>,
     known: HashMap<Op<RegisterId, u32>, usize, BuildHasherDefault<Quick>>,
     coordinates: HashMap<Coordinate, Index>,
-    /// By width: the entries of the table of an integer that is its own address.
+    /// By width: the entries 0, 1, 2, ... of the table of an integer whose address is its own bits.
     counted: HashMap<u32, Rc<[f64]>>,
     names: Vec<(Named, usize, Nameable)>,
-    /// By ray: what it starts with and what it meets, as the tracer told.
+    /// By ray: its start and its hit, as the tracer reported them.
     segments: Vec<Segment<Self>>,
-    /// The surface whose weight is being computed, and of what the surfaces' weights are made.
+    /// The surface whose weight is being computed.
     surface: Option<u32>,
+    /// By surface: the value of a material that the surface's weight is computed from.
     wide_values: Vec<Option<WideValue>>,
     asked: u64,
     shared: u64,
 }
 
-/// What a builder recorded.
+/// The recording of a builder.
 #[derive(Clone)]
 pub(crate) struct Recorded {
     draft: Draft,
     pub(crate) parameters: Vec<PixelWord>,
-    /// Registers that stay although nothing may need them.
+    /// Registers that are kept even if nothing needs them.
     records: Vec<RegisterId>,
-    /// What the tracer has names for.
+    /// The values that the tracer has names for.
     pub(crate) names: Vec<NamedPlace>,
 }
 
 impl<'a> Builder<'a> {
-    /// A builder of an empty program, whose one input is the path index.
+    /// Creates a builder of an empty program. The program's only input is the path index.
     pub fn new(target: Target<'a>) -> Self {
         let mut builder = Self {
             target,
@@ -256,7 +258,7 @@ impl<'a> Builder<'a> {
         builder
     }
 
-    /// How many fraction bits every number has.
+    /// Number of fraction bits of every number.
     pub fn fraction_bits(&self) -> u32 {
         self.target.fraction
     }
@@ -275,12 +277,12 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What follows belongs to the rounding of colours, until [`crate::tracer::Arith::leave`].
+    /// Opens the block of the rounding of colours. [`crate::tracer::Arith::leave`] closes the block.
     pub(crate) fn enter_count(&mut self) {
         self.begin(StageName::Count, None);
     }
 
-    /// What was recorded, or why that cannot be.
+    /// Returns the recording, or the first error.
     pub(crate) fn finish(self) -> Result<Recorded, BuildError> {
         match self.error {
             Some(error) => Err(error),
@@ -302,7 +304,7 @@ impl<'a> Builder<'a> {
         self.register(name, ty, role, width)
     }
 
-    /// How many operations were asked for, and how many of these were there already.
+    /// Number of operations requested, and number of these that reused an earlier operation.
     pub fn sharing(&self) -> [u64; 2] {
         [self.asked, self.shared]
     }
@@ -316,12 +318,12 @@ impl<'a> Builder<'a> {
         self.open.last().copied().unwrap_or(BlockId::ROOT)
     }
 
-    /// Whether what was computed in `block` is read where it is needed, rather than computed anew.
+    /// True if a value computed in `block` is read from its register, false if it is recomputed.
     fn is_at_hand(&self, block: BlockId) -> bool {
         !self.target.strategy.recomputes() || self.open.contains(&block)
     }
 
-    /// Whether a register that a table may fill again is read where it is needed.
+    /// True if a register that a table filled is read, false if the table fills another register.
     fn is_filled(&self, register: RegisterId) -> bool {
         self.is_at_hand(self.registers[register.index()].block)
     }
@@ -340,13 +342,13 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What the surfaces' weights are computed from, by their numbers.
+    /// Sets the values of materials that the surfaces' weights are computed from, by surface number.
     pub(crate) fn with_values(mut self, values: Vec<Option<WideValue>>) -> Self {
         self.wide_values = values;
         self
     }
 
-    /// Reports a number that no register holds.
+    /// Reports a number that is too wide for a register.
     fn too_many_bits(&mut self, what: &'static str, bits: u32) {
         let surface = self.surface.map(|surface| surface as usize);
         let value = surface.and_then(|surface| self.wide_values.get(surface).cloned());
@@ -380,11 +382,11 @@ impl<'a> Builder<'a> {
         id
     }
 
-    /// The targets of an operation, or of an equal one that is there. It is given with its results'
-    /// shapes in place of its targets.
+    /// Records an operation, or finds an equal earlier one, and returns its targets. `op` has the
+    /// shapes of its results in place of its targets.
     fn emit(&mut self, op: Op<RegisterId, Shape>) -> Vec<RegisterId> {
         self.asked += 1;
-        // Equal operands at another width are another operation.
+        // The key contains the widths: equal operands at another width are another operation.
         let key = op.clone().map(|read| read, |(_, width)| width);
         if let (true, Some(&known)) = (self.target.passes.share, self.known.get(&key))
             && self.is_at_hand(self.ops[known].1)
@@ -402,7 +404,7 @@ impl<'a> Builder<'a> {
         self.emit_anew(op)
     }
 
-    /// The targets of an operation, whether or not there is an equal one.
+    /// Records an operation, even if there is an equal one, and returns its targets.
     fn emit_anew(&mut self, op: Op<RegisterId, Shape>) -> Vec<RegisterId> {
         let name = op.name();
         let op = op.map(
@@ -430,7 +432,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// One of the parameters, made or found.
+    /// The index of a parameter, which is added if it is new.
     fn parameter(&mut self, parameter: PixelWord) -> u32 {
         let found = self.parameters.iter().position(|known| *known == parameter);
         found.unwrap_or_else(|| {
@@ -481,7 +483,7 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// All of an unsigned register.
+    /// All bits of a register of `width` bits.
     fn whole(register: RegisterId, width: u32, signed: bool) -> Word {
         Word {
             register,

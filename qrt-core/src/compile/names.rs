@@ -1,4 +1,4 @@
-//! What values are called in the layout of registers.
+//! Names of values in the layout of registers.
 
 use super::value::{Bool, Index, Real};
 use super::{Affine, Builder};
@@ -20,14 +20,14 @@ pub(super) enum Nameable {
 pub struct NamedPlace {
     /// The name of the value, and the ray that it belongs to.
     pub name: Named,
-    /// Which component of a vector it is: 0, 1 or 2.
+    /// The component of a vector: 0, 1 or 2.
     pub component: usize,
     /// The register that holds the value, and how it is read.
     pub place: Place,
 }
 
 impl NamedPlace {
-    /// What the component is called, if there are several.
+    /// The component's name, if the value has several components.
     pub fn component_name(&self) -> Option<&'static str> {
         let names = match self.name.quantity {
             Quantity::Origin | Quantity::Direction => ["x", "y", "z"],
@@ -39,7 +39,7 @@ impl NamedPlace {
     }
 }
 
-/// `ray1.direction.x`
+/// Writes a name like `ray1.direction.x`.
 impl fmt::Display for NamedPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Named { depth, quantity } = self.name;
@@ -51,17 +51,17 @@ impl fmt::Display for NamedPlace {
     }
 }
 
-/// Where a named value is.
+/// The place of a named value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// `-1^negated word 2^-fraction + offset[0] + offset[1] column + offset[2] row`
     Number {
         /// The bits that are read.
         word: Word,
-        /// Whether the register holds the number's negative.
+        /// True if the register holds the number's negative.
         negated: bool,
-        /// The part that is not in the register, being the same on all paths of a pixel: its
-        /// constant, and its change per column and per row.
+        /// The part outside the register, which is the same on all paths of a pixel: its constant,
+        /// and its change per column and per row.
         offset: [f64; 3],
     },
     /// A truth value, by its bit.
@@ -77,8 +77,8 @@ impl Builder<'_> {
             .extend(values.map(|(component, value)| (name, component, value)));
     }
 
-    /// Named values that are in registers. A value in no register, because a table serves instead
-    /// or because it is the same on all paths, is left out.
+    /// Named values that are in registers. A value is left out if it is in no register: a table
+    /// replaces it, or it is the same on all paths.
     pub(super) fn named_places(&self) -> Vec<NamedPlace> {
         let samples = self.coordinates.iter().map(|(coordinate, &index)| {
             let quantity = match coordinate.square {
@@ -128,7 +128,7 @@ impl Builder<'_> {
 }
 
 impl Place {
-    /// The same in registers that are named otherwise.
+    /// The same place, with its register renamed by `rename`.
     pub(crate) fn renamed(self, rename: impl FnOnce(RegisterId) -> RegisterId) -> Self {
         match self {
             Self::Number {

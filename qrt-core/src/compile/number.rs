@@ -4,12 +4,12 @@ use super::value::{Affine, Real, Tabulated, Value, bits_of};
 use super::{Builder, MAX_BITS, PixelWord};
 use qrt_circuit::{Op, Operand, Type, Word};
 
-/// A number whose bits are there, or one that is the same on all paths of all pixels.
+/// A number whose bits are in a register, or one that is the same on all paths of all pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plain {
     pub(super) operand: Operand,
     pub(super) range: [i64; 2],
-    /// Whether the operand stands for its negative.
+    /// True if the number is the operand's negative.
     pub(super) negated: bool,
 }
 
@@ -60,11 +60,12 @@ impl Builder<'_> {
         Real::node(self.values.len() as u32 - 1)
     }
 
-    /// The value of a new register of `range`.
+    /// The number that `word` holds, which lies in `range`.
     pub(super) fn computed(&mut self, word: Word, range: [i64; 2]) -> Real {
         let register = &mut self.registers[word.register.index()];
         if word.width == register.width && word.shift == 0 {
-            // The first to read all of it is who computed it.
+            // The defining operation counts as the first reader of the whole register: its range is
+            // kept.
             register.range.get_or_insert(range);
         }
         self.value(Value {
@@ -74,7 +75,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Type and width of a register for `range`, and how the register is read.
+    /// Type and width of a register for `range`, and whether it is signed.
     pub(super) fn shape(&mut self, range: [i64; 2]) -> (Type, u32, bool) {
         let (bits, signed) = bits_of(range);
         (self.number_type(signed), bits.max(1), signed)
@@ -96,12 +97,12 @@ impl Builder<'_> {
         let (x, y) = (ends(offset.along[0], width), ends(offset.along[1], height));
         let low = offset.constant + x[0].min(x[1]) + y[0].min(y[1]);
         let high = offset.constant + x[0].max(x[1]) + y[0].max(y[1]);
-        // Where coefficients are summed in another order the last bit may differ.
+        // If coefficients are summed in another order, the last bit may differ.
         let slack = i64::from(!offset.is_constant());
         [self.rounded(low) - slack, self.rounded(high) + slack]
     }
 
-    /// A number as an operand, its sign apart where that costs nothing.
+    /// A number as an operand. Its sign stays apart where applying it would cost an operation.
     pub(super) fn plain(&mut self, a: Real) -> Plain {
         let whole = |operand, range| Plain {
             operand,
@@ -164,7 +165,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `a ± b`, of which `range` is known.
+    /// `a ± b`, which lies in `range`.
     pub(super) fn sum(&mut self, a: Operand, b: Operand, subtract: bool, range: [i64; 2]) -> Word {
         let (ty, width, signed) = self.shape(range);
         let target = self.emit(Op::Add {
@@ -225,7 +226,8 @@ impl Builder<'_> {
                 ..twice
             };
         }
-        // A subtrahend comes second; of two equal signs the order is the nodes'.
+        // The subtrahend is second. With equal signs, the order of the nodes decides, so that equal
+        // sums are shared.
         let (first, second) = match (a.negated, b.negated) {
             (true, false) => (y, x),
             (false, true) => (x, y),

@@ -1,4 +1,4 @@
-//! Signs, the greater and the lesser, and what is known of a number's bounds.
+//! Signs, minima and maxima, and known bounds of numbers.
 
 use super::Builder;
 use super::number::negative;
@@ -76,7 +76,7 @@ impl Builder<'_> {
         greater.negative()
     }
 
-    /// The same number, of which a tighter interval is known.
+    /// The same number, known to lie in `range`.
     pub(super) fn narrowed(&mut self, a: Real, range: [i64; 2]) -> Real {
         if a.offset != Affine::ZERO {
             return a;
@@ -99,8 +99,9 @@ impl Builder<'_> {
         if a.negated { value.negative() } else { value }
     }
 
-    /// The same number, known to lie within `low ..= high` up to rounding: read in the bits that
-    /// hold this, of which there is at least one unit's worth to spare.
+    /// The same number, known to lie within `low ..= high` up to rounding. It is read in the lowest
+    /// bits that hold this interval. The bits for the bounds 1 and -1 hold at least one unit in the
+    /// last place more.
     pub(super) fn bounded(&mut self, a: Real, low: f64, high: f64) -> Real {
         let range = self.range(a);
         let wanted = [self.rounded(low), self.rounded(high)];

@@ -1,14 +1,13 @@
-//! From what the builder recorded to a program: what is needed, in which order, and when it is
-//! undone.
+//! Passes from the builder's recording to a program. They decide which operations are kept, in which order
+//! they run, and when they are undone.
 //!
-//! 1. [`needed`]: operations that nothing needs vanish.
-//! 2. [`merge_tables`]: tables of one address become one table of several columns, which share the
-//!    selection of the row: the greater part of a table's Toffolis.
-//! 3. [`share_multiples`]: products of one number with several constants share the sums that they
-//!    consist of.
-//! 4. [`schedule`]: operations run once and stay, but for those of scopes: a scope copies out what is
-//!    needed outside of it and then runs backwards. Where qubits cost more than gates, see
-//!    [`super::recompute`].
+//! 1. [`needed`]: removes operations that nothing needs.
+//! 2. [`merge_tables`]: merges tables of one address into one table of several columns. The columns share
+//!    the selection of the row, which is the greater part of a table's Toffolis.
+//! 3. [`share_multiples`]: computes products of one number with several constants from shared sums.
+//! 4. [`schedule`]: orders the instructions. Operations run once and their results stay, except in scopes:
+//!    a scope copies the results that are read outside it and then runs backwards. If qubits cost more than
+//!    gates, [`super::recompute`] orders the instructions.
 
 use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
 use qrt_circuit::lower::{self, Figures};
@@ -20,7 +19,7 @@ use std::collections::{HashMap, HashSet};
 use std::hash::BuildHasherDefault;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What passes work on.
+/// The data that passes work on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Draft {
     pub(super) registers: Vec<Register>,
@@ -28,50 +27,48 @@ pub(super) struct Draft {
     pub(super) ops: Vec<(Op, BlockId)>,
 }
 
-/// What was found out about operations: of use to programs that are assembled from parts of one
-/// recording.
+/// Cached results about operations, for all programs that are assembled from parts of one recording.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
-    /// On how many threads it is found.
+    /// The number of threads that compute the results.
     pub(crate) cores: Cores,
     /// [`lower::best_low`], by the targets of a table.
     lows: QuickMap<Box<[RegisterId]>, u32>,
-    /// By the targets of products of one number: how they are computed together, where that is cheaper.
+    /// By the targets of products of one number: the plan that computes them together, if that is cheaper.
     together: QuickMap<Box<[RegisterId]>, Option<Arc<Multiples>>>,
     sums: KnownSums,
     /// The figures of operations that are alike.
     pub(crate) alike: lower::KnownFigures,
-    /// By the register that they compute first: the figures of operations that no pass changes.
+    /// Figures of operations that no pass changes, by the first register that the operation computes.
     of_recorded: Vec<Option<Figures>>,
-    /// By the registers that they compute: the figures of tables and products.
+    /// Figures of tables and products, by the registers that they compute.
     of_merged: QuickMap<Box<[RegisterId]>, Figures>,
 }
 
-/// A map whose keys nobody chooses to collide.
+/// A hash map for trusted keys: no protection against chosen collisions.
 pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
 
-/// A set like it.
+/// A hash set for trusted keys.
 pub(super) type QuickSet<T> = HashSet<T, BuildHasherDefault<lower::Quick>>;
 
-/// By register that was recorded, the copy that stands for it.
+/// Maps a recorded register to the copy that replaces it.
 pub(super) type Renamed = QuickMap<RegisterId, RegisterId>;
 
-/// What is known, for the caller alone until it is given back. What a thread has found out before it
-/// panicked is true.
+/// Locks the cache. Entries are complete when inserted, so a poisoned lock is safe to reuse.
 pub(crate) fn locked(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
     known.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Where the figures of an operation are kept.
+/// The place where the figures of an operation are kept.
 enum Place {
     Recorded(usize),
     Merged(Box<[RegisterId]>),
-    /// Copies are numbered anew in each program.
+    /// Not kept: copies have other numbers in each program.
     Nowhere,
 }
 
 impl Known {
-    /// What operations cost, one by one, and the width of their garbage.
+    /// The cost of each operation, and the width of its garbage.
     pub(crate) fn figures<'a>(
         &mut self,
         ops: impl Iterator<Item = &'a Op>,
@@ -118,7 +115,7 @@ impl Known {
         }
     }
 
-    /// Keeps whether products of one number are computed together, as `op` does.
+    /// Records whether products of one number are computed together, as in `op`.
     fn decide(&mut self, op: Op, is_cheaper: bool) {
         if let Op::Multiples {
             products, targets, ..
@@ -131,7 +128,7 @@ impl Known {
 }
 
 impl Draft {
-    /// A copy of a register, in `parent`, and the instruction that makes it.
+    /// Creates a copy of `register` in `parent`. Returns the copy and the instruction that makes it.
     pub(super) fn copy(
         &mut self,
         register: RegisterId,
@@ -171,7 +168,7 @@ impl Draft {
         path
     }
 
-    /// The block next below `above` on the way to `block`; none if they are one.
+    /// The child of `above` that contains `block`; none if `above` is `block`.
     fn child_towards(&self, above: BlockId, block: BlockId) -> Option<BlockId> {
         let path = self.ancestors(block);
         let place = path.iter().position(|&b| b == above)?;
@@ -208,7 +205,7 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
     draft.ops.retain(|_| keep.next().unwrap_or(false));
 }
 
-/// Makes one table of all that have the same address and can run where the first one does.
+/// Merges tables that have the same address and can run at the place of the first one.
 pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
     let mut defined: Vec<Option<usize>> = vec![None; draft.registers.len()];
     let mut groups: HashMap<(Vec<Bit>, Option<BlockId>), Vec<usize>> = HashMap::new();
@@ -217,21 +214,21 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
             defined[target.index()] = Some(place);
         }
         if let Op::Table { address, style, .. } = op {
-            // Without garbage a table is there for its block alone: what another one needs of it
-            // would have to be kept in between.
+            // In-place tables are merged only within one block: a result for another block would have to be
+            // kept in between.
             let block = (*style == Style::InPlace).then_some(*block);
             let key = (address.to_vec(), block);
             groups.entry(key).or_default().push(place);
         }
     }
-    // By the place before which it is inserted.
+    // Each merged table, after the place before which it is inserted.
     let mut inserted: Vec<(usize, Op, BlockId)> = Vec::new();
     let mut gone = vec![false; draft.ops.len()];
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
     for ((address, _), places) in groups {
-        // The block around all of them, as far as the address is known before the part of it in
-        // which the first one stands.
+        // The innermost block that contains all tables of the group and in which the address is computed
+        // before the child block with the first table starts.
         let first = places[0];
         let known = address
             .iter()
@@ -281,7 +278,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
         }
         let targets: Box<[RegisterId]> = targets.into();
         let op = Op::Table {
-            // Found below.
+            // `choose_lows` sets it.
             low: 0,
             style: how,
             address: address.into(),
@@ -306,7 +303,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
     draft.ops = merged;
 }
 
-/// Chooses by how many low bits of its address each table that leaves garbage selects.
+/// Chooses for each out-of-place table how many low bits of its address select among words read together.
 fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known>) {
     let mut tables: Vec<&mut Op> = tables.collect();
     let mut known = locked(known);
@@ -333,12 +330,12 @@ fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known
     }
 }
 
-/// So many products are computed together, at most.
+/// The largest number of products that are computed together.
 const TOGETHER: usize = 12;
 
-/// Computes products of one number with constants by sums that they share, where that is cheaper.
+/// Computes products of one number with constants from shared sums, where that is cheaper.
 fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {
-    // What is in a scope is not there for others.
+    // A result in a scope is not available outside the scope.
     let is_scope = |block: &BlockId| {
         let stage = Label::of(&draft.blocks[block.index()]).stage;
         strategy.is_scope(stage)
@@ -386,7 +383,7 @@ fn targets_of(draft: &Draft, places: &[usize]) -> Box<[RegisterId]> {
     targets.flatten().collect()
 }
 
-/// Finds out which products of one number, those at each of these places, are cheaper together.
+/// Decides which products of one number, those at the places of each chunk, are cheaper together.
 fn learn_together(draft: &Draft, chunks: &[&[usize]], known: &mut Known) {
     let new = chunks
         .iter()
@@ -423,7 +420,7 @@ fn learn_together(draft: &Draft, chunks: &[&[usize]], known: &mut Known) {
     let costs = known.figures(together.iter().map(|(_, op)| op), &draft.registers);
     let apart = |&place: &usize| &draft.ops[place].0;
     let width = |id: RegisterId| draft.registers[id.index()].width;
-    // What they cost apart is counted where it is not clear.
+    // The exact cost apart is computed only where the lower bound does not decide.
     let mut unclear = Vec::new();
     for ((places, op), most) in together.into_iter().zip(costs.into_iter().map(toffoli)) {
         let least: u64 = places
@@ -458,24 +455,26 @@ enum Item {
 
 struct Scheduler<'a> {
     draft: &'a mut Draft,
-    /// Whether the work of each block is undone at its end.
+    /// By block: true if its work is undone at its end.
     scopes: Vec<bool>,
     items: Vec<Vec<Item>>,
-    /// By register, but for copies: the blocks around the ops that read it, none for what stays to the end.
+    /// By register, except copies: the blocks of the operations that read it. `None` stands for the
+    /// program's end.
     readers: Vec<Vec<Option<BlockId>>>,
     /// Copies that stand for registers of finished scopes.
     renamed: Renamed,
     /// By copy: the registers that it stands for.
     stands_for: QuickMap<RegisterId, Vec<RegisterId>>,
-    /// By register, one more than the place of the instruction of a block that computed it, while the block
-    /// is looked at; 0 otherwise. Maps would take most of the time where nobody optimises them.
+    /// By register: one more than the place of the block's instruction that computed it, while the block is
+    /// processed; 0 otherwise. A vector, because hash maps would take most of the time in unoptimised
+    /// builds.
     computed: Vec<usize>,
-    /// By operation: whether it is left out when a block is undone, likewise.
+    /// By operation: true if it is left out when the block is undone, while the block is processed.
     stays: Vec<bool>,
 }
 
-/// The order of instructions: all at once, or scope by scope. `roots` outlive everything; under
-/// scopes, some of them may end up in copies, which the result maps them to.
+/// Orders the instructions: all at once, or scope by scope. `roots` stay to the end of the program. With
+/// scopes, some roots may end up in copies; the returned map contains these copies.
 pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
@@ -498,7 +497,7 @@ pub(super) fn schedule(
     for root in roots {
         readers[root.index()].push(None);
     }
-    // Blocks stand in their parents where their first op does.
+    // A block's place in its parent is the place of its first operation.
     let mut placed = vec![false; draft.blocks.len()];
     let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
     for (place, (op, block)) in draft.ops.iter().enumerate() {
@@ -533,8 +532,8 @@ pub(super) fn schedule(
 }
 
 impl Scheduler<'_> {
-    /// The instructions of a block. All that is left of a scope is copies of what is read outside
-    /// of it.
+    /// Returns the instructions of a block. A scope leaves only the results that are read outside it, most
+    /// of them as copies.
     fn block(&mut self, block: BlockId) -> Vec<Instruction> {
         let mut forward = Vec::new();
         for item in std::mem::take(&mut self.items[block.index()]) {
@@ -564,7 +563,7 @@ impl Scheduler<'_> {
         let parent = self.draft.blocks[block.index()]
             .parent
             .unwrap_or(BlockId::ROOT);
-        // What was computed here, or copied here by scopes within, and is read outside.
+        // Registers that are computed here, or copied here by inner scopes, and read outside.
         self.computed.resize(self.draft.registers.len(), 0);
         let mut all = Vec::new();
         for (place, instruction) in forward.iter().enumerate() {
@@ -614,7 +613,7 @@ impl Scheduler<'_> {
     }
 
     fn read_outside(&self, register: RegisterId, block: BlockId) -> bool {
-        // A copy is read by whoever read what it stands for.
+        // The readers of a copy are the readers of the registers that it stands for.
         let originals = self.stands_for.get(&register).into_iter().flatten();
         let mut readers = originals
             .chain([&register])
@@ -622,7 +621,7 @@ impl Scheduler<'_> {
         readers.any(|all| all.iter().any(|reader| !self.is_within(*reader, block)))
     }
 
-    /// Whether a reader is in this block, or in one within it.
+    /// True if `reader` is `block` or a block within it.
     fn is_within(&self, reader: Option<BlockId>, block: BlockId) -> bool {
         let mut at = reader;
         while let Some(own) = at {
@@ -636,7 +635,7 @@ impl Scheduler<'_> {
 
     fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
         let (id, instruction) = self.draft.copy(register, parent);
-        // Earlier names lead to the newest copy.
+        // All earlier names map to the newest copy.
         let mut names = self.stands_for.remove(&register).unwrap_or_default();
         names.push(register);
         self.renamed.extend(names.iter().map(|name| (*name, id)));
@@ -645,7 +644,7 @@ impl Scheduler<'_> {
     }
 }
 
-/// The program of what was recorded, and the copies that stand for some of its `roots`.
+/// Assembles the program of a recording. Returns it and the copies that replace some of its `roots`.
 pub(crate) fn assemble(
     recorded: Recorded,
     roots: &[RegisterId],

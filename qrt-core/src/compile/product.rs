@@ -49,7 +49,7 @@ impl Builder<'_> {
             return self.shifted(node, exponent - 1);
         }
         let mut k = (64 - most.leading_zeros()) as i32 + 1;
-        // No more than fits beside the number itself.
+        // The constant and the number together must fit the widest product.
         k = k.min((MAX_BITS - 1).saturating_sub(64 - most.leading_zeros()) as i32 - exponent);
         let whole = libm::ldexp(factor, k).round_ties_even();
         if whole >= (1_i64 << (MAX_BITS - 2)) as f64 {
@@ -115,7 +115,8 @@ impl Builder<'_> {
         }
     }
 
-    /// A number that was rounded down from one with many more bits.
+    /// Marks a number as rounded down from one with many more bits. It is half an ulp too small on
+    /// average.
     pub(super) fn rounded_down(&self, a: Real) -> Real {
         Real {
             bias: if a.node.is_some() {
@@ -141,7 +142,7 @@ impl Builder<'_> {
         let (a, b) = (self.plain(a), self.plain(b));
         let negated = a.negated != b.negated;
         let (Operand::Word(x), Operand::Word(y)) = (a.operand, b.operand) else {
-            // What is loaded is a word; a constant has been dealt with.
+            // Unreachable: constants are handled above, and every other operand is a word.
             return Real::constant(0.0);
         };
         let drop = self.fraction();
@@ -155,7 +156,7 @@ impl Builder<'_> {
             self.square(x, drop, range)
         } else {
             let range = hull([ends(0, 0), ends(0, 1), ends(1, 0), ends(1, 1)]);
-            // The narrower one chooses the rows.
+            // The narrower factor selects the rows.
             let order = |word: Word| (word.width, word.register, word.offset, word.shift);
             let (rows, other) = if order(x) <= order(y) { (x, y) } else { (y, x) };
             let (ty, width, signed) = self.shape(range);
@@ -210,7 +211,7 @@ fn dropped(word: Word, drop: u32) -> Option<Word> {
             ..word
         });
     }
-    // Nothing but the sign: 0 or -1.
+    // Only the sign is left: 0 or -1.
     word.signed.then_some(Word {
         offset: word.offset + word.width - 1,
         width: 1,

@@ -1,15 +1,16 @@
-//! The order of instructions where qubits cost more than gates: what nobody reads any more is undone.
+//! The order of instructions if qubits cost more than gates: a value is undone soon after its last use.
 //!
-//! A scope is a list of parts: operations, and scopes within. Beyond what [`super::passes`] does at the end
-//! of a scope,
+//! A scope is a list of parts: operations and inner scopes. In addition to the uncomputation at the end of
+//! a scope, as in [`super::passes`],
 //!
-//! - parts stand as late as those that read them allow;
-//! - as soon as the last part that reads one has run, it is undone, if what it was computed from is still
-//!   there and that costs little (eager cleanup: Parent, Roetteler & Svore, *Reversible circuit compilation
-//!   with space constraints*, 2015). Of a chain of equal parts, every other one goes;
-//! - if what it was computed from is gone, that may be run again for it, and undone once more: of a chain,
-//!   such as a search's nearest hit so far, one part in three stays, or in four (Bennett 1989);
-//! - parts of which everything is read outside stay as they are, and are not computed twice.
+//! - a part runs as late as the parts that read it allow;
+//! - a part is undone as soon as the last part that reads it has run, if its inputs are still there and
+//!   undoing it costs little (eager cleanup: Parent, Roetteler & Svore, *Reversible circuit compilation
+//!   with space constraints*, 2015). Of a chain of equal parts, every other one is undone;
+//! - if its inputs are gone, the parts that compute them may be run again, and undone once more. Of a
+//!   chain, such as a search's nearest hit so far, one part in three or four stays (Bennett 1989);
+//! - a part without garbage whose outputs are all read outside the scope stays as it is, and is not
+//!   computed twice.
 
 use super::passes::{Draft, Known, QuickMap, QuickSet, Renamed, locked};
 use super::{Label, StageName, Strategy};
@@ -17,17 +18,17 @@ use qrt_circuit::{BlockId, Instruction, RegisterId};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 
-/// Narrower parts stay to the end of their scope.
+/// Least width in qubits of a part that is undone before the end of its scope.
 const LEAST_WIDTH: u32 = 8;
 
-/// Toffolis that undoing a part may take, a qubit that it frees: where nothing is run again for it, and
-/// where something may be.
+/// Most Toffolis for undoing a part, per qubit that it frees. The first limit applies if nothing may be run
+/// again for it, the second if parts may be.
 const MOST_TOFFOLIS: [u64; 2] = [1000, 3000];
 
-/// So many parts are run again, one for another, to undo a third.
+/// The longest chain of parts, each run again for the next one, to undo a part.
 const MOST_AGAIN: usize = 2;
 
-/// What a scope consists of, in order.
+/// A part of a scope, before it runs.
 #[derive(Clone, Debug)]
 enum Item {
     Op(usize),
@@ -37,11 +38,11 @@ enum Item {
 /// An item that has run.
 struct ItemRun {
     instructions: Vec<Instruction>,
-    /// What it left: results and copies.
+    /// Registers that it left: results and copies.
     outputs: Vec<RegisterId>,
-    /// Whether it left garbage.
+    /// True if it left garbage.
     garbage: bool,
-    /// What it reads of others.
+    /// Registers of other items that it reads.
     inputs: QuickSet<RegisterId>,
     /// The qubits of its outputs.
     width: u32,
@@ -55,17 +56,17 @@ struct Scheduler<'a> {
     items: Vec<Vec<Item>>,
     /// By register: the operations that read it.
     readers: QuickMap<RegisterId, Vec<usize>>,
-    /// What outlives everything.
+    /// Registers that stay to the end of the program.
     roots: QuickSet<RegisterId>,
     /// Copies that stand for registers of finished scopes.
     renamed: Renamed,
-    /// What copies are copies of.
+    /// By copy: its original register.
     originals: QuickMap<RegisterId, RegisterId>,
-    /// By operation; copies have none.
+    /// Toffolis by operation. Copies have no entry.
     toffoli: Vec<u64>,
 }
 
-/// As [`super::passes::schedule`].
+/// Orders the instructions, as [`super::passes::schedule`] does.
 pub(super) fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
@@ -102,7 +103,7 @@ pub(super) fn schedule(
     (instructions, scheduler.renamed)
 }
 
-/// `second` after `first`; what meets its own inverse there is left out.
+/// Appends `second` to `first`. An instruction that follows its own inverse cancels it.
 fn join(first: &mut Vec<Instruction>, second: impl IntoIterator<Item = Instruction>) {
     for next in second {
         match first.last() {
@@ -137,7 +138,7 @@ impl Scheduler<'_> {
         self.scope(items, block, parent, again)
     }
 
-    /// The operations of an item.
+    /// Appends the operations of `item` to `all`.
     fn operations(&self, item: &Item, all: &mut Vec<usize>) {
         match item {
             Item::Op(op) => all.push(*op),
@@ -149,7 +150,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// The items, each as late as those that read it allow, and by operation its item's place.
+    /// The items, each as late as its readers allow, and a map from each operation to its item's place.
     fn sunk(&self, items: Vec<Item>) -> (Vec<Item>, QuickMap<usize, usize>) {
         let operations: Vec<Vec<usize>> = items
             .iter()
@@ -187,8 +188,9 @@ impl Scheduler<'_> {
         (sunk.collect(), place_of)
     }
 
-    /// The instructions of these items of `block`. If they are a scope, within `parent`, all that they
-    /// leave is what is read outside. `again`: parts may be run again to undo others.
+    /// Returns the instructions of `items`, which belong to `block`. If there is a `parent`, the items are
+    /// a scope within it and leave only the results that are read outside. If `again`, parts may be run
+    /// again to undo others.
     fn scope(
         &mut self,
         items: Vec<Item>,
@@ -299,7 +301,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Undoes what nobody reads any more, the latest parts first.
+    /// Undoes parts that no later part reads, the latest parts first.
     fn clean_up(
         &self,
         parts: &mut [ItemRun],
@@ -309,7 +311,7 @@ impl Scheduler<'_> {
     ) {
         let now = parts.len() - 1;
         let undone = parts.iter().enumerate().filter(|(_, part)| part.undone);
-        // By register: the part that left it, where that is undone.
+        // By register: the part that left it, if that part is undone.
         let mut gone: QuickMap<RegisterId, usize> = undone
             .flat_map(|(place, part)| part.outputs.iter().map(move |output| (*output, place)))
             .collect();
@@ -340,7 +342,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// What a register is a copy of, if it is one.
+    /// The original of `register`, which is itself if it is no copy.
     fn original(&self, register: RegisterId) -> RegisterId {
         self.originals.get(&register).copied().unwrap_or(register)
     }
@@ -351,7 +353,7 @@ impl Scheduler<'_> {
         self.roots.contains(&original) || readers.any(|reader| !place_of.contains_key(reader))
     }
 
-    /// The place of the last item of a scope that reads what a part left; none if that is read outside.
+    /// The place of the last item of a scope that reads an output of `part`; none if one is read outside.
     fn last_read(&self, part: &ItemRun, place_of: &QuickMap<usize, usize>) -> Option<usize> {
         let mut last = 0;
         for output in &part.outputs {
@@ -375,8 +377,8 @@ impl Scheduler<'_> {
     }
 }
 
-/// Finds the parts that have to run again before `part` can be undone, each found by way of at most
-/// `depth` others; whether that is all.
+/// Adds to `needed` the parts that have to run again before `part` can be undone. It follows chains of at
+/// most `depth` parts, and returns false if that is not enough.
 fn find_again(
     parts: &[ItemRun],
     gone: &QuickMap<RegisterId, usize>,

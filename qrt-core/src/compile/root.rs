@@ -5,9 +5,9 @@ use super::{Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Builder<'_> {
-    /// The root of a sum of squares that are kept exact.
+    /// The length of `v`: the root of a sum of squares. The squares keep all bits that fit.
     pub(super) fn norm(&mut self, v: [Real; 3]) -> Real {
-        // In units of 4^-fraction; as many low bits are dropped as the widest sum needs.
+        // Squares are in units of 4^-fraction. Low bits are dropped so that the greatest sum fits.
         let mut parts = Vec::new();
         let mut exact = 0.0;
         for part in v {
@@ -112,8 +112,8 @@ impl Builder<'_> {
         let Operand::Word(word) = operand else {
             return Real::constant(0.0);
         };
-        // Zeros below are for the root's fraction: as many, or two fewer for each bit that the root
-        // then lacks.
+        // Zeros appended below give the root its fraction bits: `fraction` zeros, or two fewer for
+        // each fraction bit that the root then lacks.
         let room = (MAX_BITS - 1).saturating_sub(word.bits());
         let fraction = self.fraction();
         let lost = fraction.saturating_sub(room).div_ceil(2);

@@ -1,8 +1,9 @@
-//! When work is undone: how a program trades qubits for gates.
+//! Strategies of uncomputation: how a program trades qubits for gates.
 //!
-//! What is kept to the end is computed once and undone once. What is undone at the end of a part of the
-//! tracer, its scope, leaves copies of what others read, and frees its qubits; it is computed once more
-//! when the copies are undone. Scopes within scopes double again (Bennett 1989).
+//! A value that is kept to the end is computed once and undone once. A scope is a part of the tracer whose
+//! work is undone at its end. It leaves copies of the results that are read outside it, and frees its
+//! qubits; it is computed once more when the copies are undone. Each level of nested scopes doubles the
+//! cost again (Bennett 1989).
 
 use super::StageName;
 use crate::scene::{Again, PARTS, Uncompute};
@@ -23,14 +24,14 @@ pub enum Scope {
     Sample,
     /// A component of a vector, within a ray.
     Component,
-    /// On which side a surface is met.
+    /// The side on which a ray meets a surface.
     Side,
     /// The light that a vertex adds.
     Shade,
 }
 
 impl Scope {
-    /// All of them, from the parts to the whole.
+    /// All scopes.
     pub const ALL: [Self; 8] = [
         Self::Plane,
         Self::Body,
@@ -42,7 +43,7 @@ impl Scope {
         Self::Shade,
     ];
 
-    /// The scope that a stage is.
+    /// The scope of a stage, if it has one.
     fn of(stage: StageName) -> Option<Self> {
         Some(match stage {
             StageName::Plane(_) | StageName::Primitive(_) => Self::Plane,
@@ -58,7 +59,7 @@ impl Scope {
     }
 }
 
-/// Operations that compute more than their results.
+/// Kinds of operations that compute more than their results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Garbage {
     /// Tables.
@@ -74,20 +75,20 @@ impl Garbage {
     pub const ALL: [Self; 3] = [Self::Tables, Self::Products, Self::Quotients];
 }
 
-/// What is undone when.
+/// A strategy of uncomputation: which values are undone when.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Strategy {
     scopes: u16,
-    /// By [`Garbage`]: whether it is undone at once, for as many gates again.
+    /// By [`Garbage`]: true if it is undone at once, which doubles the gates of the operation.
     lean: [bool; 3],
-    /// Whether what is cheap is computed anew where it is read, and undone where nobody reads it any more.
+    /// True if cheap values are recomputed at each use and undone after their last use.
     recomputes: bool,
-    /// Whether more is undone, by running again what it was computed from.
+    /// True if more values are undone, by recomputing their inputs.
     runs_again: bool,
 }
 
 impl Strategy {
-    /// Everything stays to the end: fewest gates, most qubits.
+    /// Keeps everything to the end: fewest gates, most qubits.
     pub const KEEP: Self = Self {
         scopes: 0,
         lean: [false; 3],
@@ -103,10 +104,9 @@ impl Strategy {
         runs_again: false,
     };
 
-    /// What is decided one by one, what changes most first: parts of a ray's way that are undone at their
-    /// ends, the small ones together, and garbage that is undone at once. Whichever are taken already, one
-    /// more costs no fewer Toffolis, and no more qubits but for a few that it copies.
-    /// [`PARTS`] has their names.
+    /// The independent choices of a strategy, the most effective first: scopes, the small ones together,
+    /// and garbage that is undone at once. Whichever choices are made already, one more saves no Toffolis
+    /// and costs no qubits except a few for copies. [`PARTS`] has their names.
     pub(crate) const CHOICES: [Self; PARTS.len()] = {
         use Garbage::{Products, Quotients, Tables};
         use Scope::{Body, Component, Plane, Ray, Sample, Search, Shade, Side};
@@ -123,10 +123,10 @@ impl Strategy {
         ]
     };
 
-    /// How many choices there are of some of [`Strategy::CHOICES`].
+    /// Number of subsets of [`Strategy::CHOICES`].
     pub(crate) const CHOSEN: usize = 1 << Self::CHOICES.len();
 
-    /// Those of [`Strategy::CHOICES`] whose bits are set.
+    /// The strategy with those of [`Strategy::CHOICES`] whose bits are set.
     pub(crate) fn of_choices(bits: usize) -> Self {
         let chosen = Self::CHOICES.iter().enumerate();
         let chosen = chosen.filter(|(place, _)| bits >> place & 1 == 1);
@@ -137,7 +137,7 @@ impl Strategy {
         })
     }
 
-    /// The strategy of a scene's `circuit.uncompute`; none of `auto`, which chooses one.
+    /// The strategy of a scene's `circuit.uncompute`; none for `auto`, which chooses one.
     pub fn of(uncompute: Uncompute) -> Option<Self> {
         let (parts, again) = uncompute.parts()?;
         let kept = Self::of_choices(parts.into());
@@ -174,7 +174,7 @@ impl Strategy {
         )
     }
 
-    /// These scopes, and operations that undo this garbage at once.
+    /// The strategy with these `scopes`, in which operations undo the garbage in `lean` at once.
     pub const fn new(scopes: &[Scope], lean: &[Garbage]) -> Self {
         let mut strategy = Self::KEEP;
         let mut at = 0;
@@ -190,35 +190,33 @@ impl Strategy {
         strategy
     }
 
-    /// The same, but that what is cheap is computed anew where it is read, and undone where nobody reads
-    /// it any more.
+    /// The same strategy, but it recomputes cheap values at each use and undoes them after the last.
     pub const fn recomputing(mut self) -> Self {
         self.recomputes = true;
         self
     }
 
-    /// The same as [`Strategy::recomputing`], and more is undone, by running again what it was computed
-    /// from.
+    /// The same as [`Strategy::recomputing`], but it undoes more values, by recomputing their inputs.
     pub const fn running_again(mut self) -> Self {
         self.runs_again = true;
         self.recomputing()
     }
 
-    /// Whether what is cheap is computed anew where it is read, and undone where nobody reads it any more.
+    /// True if cheap values are recomputed at each use and undone after their last use.
     pub const fn recomputes(&self) -> bool {
         self.recomputes
     }
 
-    /// Whether more is undone, by running again what it was computed from.
+    /// True if more values are undone, by recomputing their inputs.
     pub const fn runs_again(&self) -> bool {
         self.runs_again
     }
 
-    /// How many kinds of recordings strategies need.
+    /// Number of kinds of recordings that strategies need.
     pub(crate) const RECORDINGS: usize = 16;
 
-    /// The number of the kind of recording that it needs, below [`Strategy::RECORDINGS`]: strategies of
-    /// one kind differ in what is made of it.
+    /// The kind of recording that the strategy needs, a number below [`Strategy::RECORDINGS`]. Strategies
+    /// of one kind differ in the passes after the recording.
     pub(crate) fn recording(self) -> usize {
         let flags = [self.lean[0], self.lean[1], self.lean[2], self.recomputes];
         flags
@@ -226,7 +224,8 @@ impl Strategy {
             .fold(0, |number, flag| 2 * number + usize::from(*flag))
     }
 
-    /// All that are worth trying. What is computed anew and leaves garbage would leave it as often.
+    /// All strategies worth trying. Those that recompute leave no garbage: they would leave it at each
+    /// recomputation.
     pub fn all() -> Vec<Self> {
         let kept = (0..Self::CHOSEN).map(Self::of_choices);
         let anew = Self::all_without_garbage()
@@ -234,13 +233,13 @@ impl Strategy {
         kept.chain(anew).collect()
     }
 
-    /// Those of them that compute nothing anew and leave no garbage.
+    /// The strategies of [`Strategy::all`] that recompute nothing and leave no garbage.
     pub(crate) fn all_without_garbage() -> impl Iterator<Item = Self> {
         let kept = (0..Self::CHOSEN).map(Self::of_choices);
         kept.filter(|strategy| strategy.lean == [true; 3])
     }
 
-    /// How operations are lowered that have this garbage.
+    /// The style in which operations with this garbage are lowered.
     pub const fn style(&self, garbage: Garbage) -> Style {
         if self.lean[garbage as usize] {
             Style::InPlace
@@ -249,17 +248,17 @@ impl Strategy {
         }
     }
 
-    /// Whether the work of these parts is undone at their ends.
+    /// True if the work of this scope is undone at its end.
     pub const fn undoes(&self, scope: Scope) -> bool {
         self.scopes >> scope as u16 & 1 == 1
     }
 
-    /// Whether a block of this stage is a scope.
+    /// True if a block of this stage is a scope.
     pub(super) fn is_scope(self, stage: StageName) -> bool {
         Scope::of(stage).is_some_and(|scope| self.undoes(scope))
     }
 
-    /// Whether anything is undone before the end.
+    /// True if no scope is undone before the end.
     pub(super) const fn is_keep(self) -> bool {
         self.scopes == 0
     }

@@ -14,7 +14,7 @@ impl Tabulated {
         }
     }
 
-    /// Without the address bits that no entry depends on.
+    /// Removes the address bits that no entry depends on.
     fn reduced(mut self) -> Self {
         let mut place = 0;
         while place < self.address.len() {
@@ -39,8 +39,8 @@ impl Tabulated {
         self
     }
 
-    /// `f(a, b)`, a function of the bits of both; none if these are more than `most`, unless both
-    /// have the same.
+    /// The table of `f(a, b)`, with the address bits of both. None if these are more than `most`,
+    /// unless both addresses are equal or one is empty.
     fn join(a: &Self, b: &Self, most: usize, f: impl Fn(f64, f64) -> f64) -> Option<Self> {
         if a.address == b.address {
             let pairs = a.entries.iter().zip(&*b.entries);
@@ -50,7 +50,7 @@ impl Tabulated {
             });
         }
         let mut address = a.address.to_vec();
-        // Where bit i of b's address stands in the common one.
+        // For each bit of `b`'s address, its place in the common address.
         let places: Vec<usize> = b
             .address
             .iter()
@@ -81,12 +81,12 @@ impl Tabulated {
     }
 }
 
-/// Toffolis of a table of `bits` address bits.
+/// Toffolis of a table with `bits` address bits.
 fn one_hot_cost(bits: usize) -> u32 {
     (1_u32 << bits) - bits as u32 - 1
 }
 
-/// `f(a, b)` as a table, if that is cheaper than arithmetic that costs `cost`.
+/// `f(a, b)` as a table, if the table is cheaper than arithmetic of `cost` Toffolis.
 pub(super) fn joined(
     a: &Tabulated,
     b: &Tabulated,
@@ -111,7 +111,7 @@ impl Builder<'_> {
         let high = table.entries.iter().copied().fold(first, f64::max);
         let range = [self.rounded(low), self.rounded(high)];
         if range[0] == range[1] {
-            // What is rounded to one number is that number.
+            // All entries round to one number: the table is that constant.
             return Real::constant(range[0] as f64 * self.ulp());
         }
         self.value(Value {
@@ -121,7 +121,7 @@ impl Builder<'_> {
         })
     }
 
-    /// The function that a number is, its sign and constant included.
+    /// The table of a number, its sign and constant included; none if it has no table.
     pub(super) fn table_of(&self, a: Real) -> Option<Tabulated> {
         if !a.offset.is_constant() {
             return None;
@@ -138,13 +138,13 @@ impl Builder<'_> {
         Some(table.map(|entry| sign * entry + offset))
     }
 
-    /// `f(a)` as a table, if `a` is one.
+    /// `f(a)` as a table, if `a` is a table.
     pub(super) fn tabulate_one(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Option<Real> {
         let table = self.table_of(a)?.map(f);
         Some(self.tabulated(table))
     }
 
-    /// `f(a, b)` as a table, if both are and arithmetic would cost more.
+    /// `f(a, b)` as a table, if both are tables and arithmetic would cost more.
     pub(super) fn tabulate_pair(
         &mut self,
         a: Real,
@@ -160,7 +160,7 @@ impl Builder<'_> {
         Some(self.tabulated(table))
     }
 
-    /// The register's bits of a node, looked up now if it is a table.
+    /// The word that holds a node. A table is looked up now.
     pub(super) fn word_of(&mut self, node: u32) -> Word {
         let value = &self.values[node as usize];
         let table = value.table.clone();
@@ -173,7 +173,8 @@ impl Builder<'_> {
         let word = match table {
             Some(table) => {
                 let entries: Vec<i64> = table.entries.iter().map(|&e| self.rounded(e)).collect();
-                // Zeros below that all entries share are wiring.
+                // Low zero bits that all entries share need no qubits: the word's shift supplies
+                // them.
                 let zeros = entries.iter().filter(|&&entry| entry != 0);
                 let zeros = zeros.map(|entry| entry.trailing_zeros()).min().unwrap_or(0);
                 let entries = entries.iter().map(|entry| entry >> zeros).collect();
@@ -184,7 +185,7 @@ impl Builder<'_> {
                     ..Self::whole(target, width, signed)
                 }
             }
-            // A value has a word or a table.
+            // Unreachable: every value has a word or a table.
             None => Self::whole(self.id, 1, false),
         };
         self.values[node as usize].word = Some(word);

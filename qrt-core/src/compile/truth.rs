@@ -11,7 +11,7 @@ impl Builder<'_> {
         Bool::node(self.truths.len() as u32 - 1)
     }
 
-    /// A truth value that is there.
+    /// The truth value that `bit` holds.
     pub(super) fn truth_of(&mut self, bit: Bit) -> Bool {
         let node = self.truth_node(Truth {
             bit: Some(Bit {
@@ -49,10 +49,10 @@ impl Builder<'_> {
         }
     }
 
-    /// The bit of a truth value, looked up now if it is a table.
+    /// The bit that holds a truth value. A table is looked up now.
     pub(super) fn bit(&mut self, a: Bool) -> Bit {
         let Bool::Node { node, inverted } = a else {
-            // Constants fold before anything asks for their bit.
+            // Unreachable: constants fold before an operation needs their bit.
             return Bit {
                 register: self.id,
                 index: 0,
@@ -214,7 +214,7 @@ impl Builder<'_> {
         {
             return self.tabulated_truth(table);
         }
-        // a's and b's constants are rounded as one.
+        // The constants of `a` and `b` are added before they are rounded.
         let difference = self.plus(a, b.negative());
         self.negative_sign(difference)
     }

@@ -1,4 +1,4 @@
-//! What the builder knows of a value: its interval, its bits, and where it came from.
+//! Values of the builder: their intervals, their bits and their tables.
 
 use qrt_circuit::{Bit, Word};
 use std::rc::Rc;
@@ -14,11 +14,11 @@ pub(super) struct Tabulated {
 /// A number of the path, in units of `2^-fraction`.
 #[derive(Clone, Debug)]
 pub(super) struct Value {
-    /// The least and the greatest that it can be.
+    /// The least and the greatest value that it can have.
     pub(super) range: [i64; 2],
-    /// Where its bits are, once something asked for them.
+    /// The bits of the value, once an operation has needed them.
     pub(super) word: Option<Word>,
-    /// The function that it is, of few bits.
+    /// The table, if the value is a function of few bits.
     pub(super) table: Option<Tabulated>,
 }
 
@@ -32,13 +32,13 @@ pub(super) struct Truth {
 /// A small unsigned integer of the path.
 #[derive(Clone, Debug)]
 pub(super) struct Choice {
-    /// The bound that the integer is below.
+    /// The exclusive upper bound of the integer.
     pub(super) bound: u32,
     pub(super) word: Option<Word>,
     pub(super) table: Option<Tabulated>,
 }
 
-/// What a value is beside its register: `constant + along[0] column + along[1] row`.
+/// The part of a value outside its register: `constant + along[0] column + along[1] row`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Affine {
     pub(super) constant: f64,
@@ -80,15 +80,16 @@ impl Affine {
     }
 }
 
-/// A register's value, or its negative, plus what pixels and the author fixed: `±node + offset`.
-/// Signs and constants travel with a number until something needs its bits.
+/// A register's value, or its negative, plus an offset that the pixel and the scene fix:
+/// `±node + offset`. Signs and constants stay apart from the bits until an operation needs the
+/// bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Real {
     pub(super) node: Option<u32>,
     pub(super) negated: bool,
     pub(super) offset: Affine,
-    /// What rounding down has taken from it on average. It joins the offset where there is one;
-    /// by itself it is not worth an addition.
+    /// The amount that rounding down has taken from it on average. It is added with the offset if
+    /// there is one; alone it is not worth an addition.
     pub(super) bias: f64,
 }
 
@@ -139,7 +140,7 @@ pub enum Bool {
     Node {
         /// The node's index in the builder's list.
         node: u32,
-        /// Whether the node's negation is meant.
+        /// True if the value is the node's negation.
         inverted: bool,
     },
 }
@@ -172,7 +173,7 @@ pub enum Index {
     Node(u32),
 }
 
-/// Bits that hold every number of `range`, and whether one of them is a sign.
+/// Number of bits that hold every number of `range`, and whether one of them is a sign.
 pub(super) fn bits_of(range: [i64; 2]) -> (u32, bool) {
     let [low, high] = range;
     if low >= 0 {

@@ -1,4 +1,4 @@
-//! Building expressions so that equal subexpressions are one node.
+//! Builds expressions in which equal subexpressions are one node.
 
 use super::{Expr, Id, Node};
 use std::collections::HashMap;
@@ -24,7 +24,7 @@ impl Arena {
         self.push(Node::Number(value))
     }
 
-    /// The nodes of `expr`; its root here.
+    /// Adds the nodes of `expr`, and returns the index of its root in this arena.
     pub(super) fn import(&mut self, expr: &Expr) -> Id {
         let mut ids = Vec::with_capacity(expr.nodes.len());
         for node in &expr.nodes {
@@ -39,7 +39,7 @@ impl Arena {
         self.nodes[id.index()]
     }
 
-    /// The expression whose value is `root`: without the nodes that it does not use.
+    /// Returns the expression with the root `root`, without the nodes that it does not use.
     pub(super) fn finish(self, root: Id) -> Expr {
         let mut used = vec![false; root.index() + 1];
         used[root.index()] = true;
@@ -64,7 +64,7 @@ impl Arena {
 }
 
 impl Expr {
-    /// The expression of one of its nodes.
+    /// Returns the subexpression with the root `root`.
     pub(crate) fn part(&self, root: Id) -> Self {
         let arena = Arena {
             nodes: self.nodes[..=root.index()].to_vec(),
@@ -75,7 +75,7 @@ impl Expr {
 }
 
 impl Node {
-    /// The nodes that it reads.
+    /// The operands of the node.
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
         let none = Id(0);
         let (ids, count) = match *self {
@@ -119,7 +119,7 @@ impl Node {
         }
     }
 
-    /// Equal for equal nodes alone.
+    /// Returns a key that is equal only for equal nodes.
     fn key(&self) -> [u64; 5] {
         let tag = match *self {
             Self::Number(value) => return [0, value.to_bits(), 0, 0, 0],

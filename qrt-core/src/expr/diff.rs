@@ -4,11 +4,11 @@ use super::arena::Arena;
 use super::{Expr, Function, Id, Node, Variable};
 
 impl Expr {
-    /// The derivative with respect to `variable`, as it comes out of the rules:
-    /// [`Expr::simplify`] makes it short.
+    /// The derivative with respect to `variable`, as the rules give it: [`Expr::simplify`] makes it
+    /// short.
     ///
-    /// At the kinks of `abs`, `min`, `max` and `if_less` it is the derivative on one of the sides;
-    /// a jump of `if_less` has no part in it.
+    /// At the kinks of `abs`, `min`, `max` and `if_less` it is the derivative on one of the sides.
+    /// Jumps of `if_less` are ignored.
     ///
     /// ```
     /// use qrt_core::expr::{Expr, Variable};
@@ -52,7 +52,7 @@ struct Rules {
 }
 
 impl Rules {
-    /// The derivative of `node`, which is `id`, from those of its operands.
+    /// Returns the derivative of `node`, whose index is `id`, from those of its operands.
     fn of(&mut self, id: Id, node: Node, [da, db, dx, dy]: [Option<Id>; 4]) -> Option<Id> {
         match node {
             Node::Number(_) | Node::Variable(_) | Node::Powi(_, 0) => None,
@@ -75,7 +75,7 @@ impl Rules {
                 let lower = match n.checked_sub(1) {
                     Some(1) => a,
                     Some(lower) => self.arena.push(Node::Powi(a, lower)),
-                    // The least power of all: a^n / a.
+                    // `i32::MIN` has no predecessor: use a^n / a.
                     None => self.arena.push(Node::Div(id, a)),
                 };
                 let slope = self.times(da, lower);

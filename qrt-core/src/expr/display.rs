@@ -1,4 +1,4 @@
-//! Writing an expression so that parsing it gives it back.
+//! Writes an expression so that parsing it gives it back.
 
 use super::{Expr, Id, Node};
 use std::fmt;
@@ -17,8 +17,8 @@ enum Piece {
 }
 
 impl Expr {
-    /// How many nodes it takes to write it, where what is shared is written again each time:
-    /// derivatives of nested `if_less` can be short as nodes and endless as text.
+    /// Number of nodes of the written expression, which repeats shared nodes: derivatives of nested
+    /// `if_less` can have few nodes but a very long text.
     pub fn written_nodes(&self) -> u64 {
         let mut sizes: Vec<u64> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -31,7 +31,7 @@ impl Expr {
 
 impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A stack of its own: a long sum is as deep as it is long.
+        // An explicit stack, because a long sum is as deep as it is long.
         let mut stack = vec![Piece::Node(self.root, SUM)];
         while let Some(piece) = stack.pop() {
             match piece {
@@ -56,7 +56,7 @@ impl fmt::Display for Expr {
     }
 }
 
-/// How tightly a node binds, and its pieces; a number or a variable has none.
+/// Returns the binding strength of a node, and its pieces; a number or a variable has none.
 fn layout(node: Node) -> (u8, Vec<Piece>) {
     use Piece::{Integer, Text};
     let operand = Piece::Node;
@@ -97,7 +97,7 @@ fn layout(node: Node) -> (u8, Vec<Piece>) {
     }
 }
 
-/// The shortest digits that give the number back, without a row of zeros.
+/// A number in the shortest digits that give it back, without long runs of zeros.
 struct Number(f64);
 
 impl fmt::Display for Number {

@@ -10,7 +10,7 @@ impl Expr {
         self.eval_in(at, &mut Vec::new())
     }
 
-    /// As [`Expr::eval`], with memory for the values of its nodes that can be used again.
+    /// Evaluates as [`Expr::eval`] does, with a reusable buffer for the values of its nodes.
     pub fn eval_in(&self, at: &Variables, values: &mut Vec<f64>) -> f64 {
         values.clear();
         for node in &self.nodes {
@@ -20,9 +20,9 @@ impl Expr {
         values[self.root.index()]
     }
 
-    /// The first node without a finite value of those that the expression's value depends on; `values` are
-    /// those of its nodes, as [`Expr::eval_in`] leaves them. The branch that an `if_less` does not take is
-    /// none of them.
+    /// Returns the first node without a finite value on which the expression's value depends.
+    /// `values` are those of its nodes, as [`Expr::eval_in`] leaves them. The branch that an
+    /// `if_less` does not take does not count.
     ///
     /// # Panics
     ///

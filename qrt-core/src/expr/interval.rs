@@ -1,8 +1,8 @@
 //! Intervals: bounds of an expression over intervals of its variables, rounded outward so that they
 //! are proofs.
 //!
-//! Every operation encloses all values that it has for operands within theirs; where it has none
-//! (the root of a negative number) it encloses nothing. Bounds are infinite where none is known.
+//! Every operation returns an interval that encloses all its values for operands within theirs, or
+//! none if it has no value (the root of a negative number). Bounds are infinite if none is known.
 
 use super::{Expr, Function, Id, Node, Variable};
 
@@ -26,7 +26,7 @@ pub struct Domain {
 }
 
 impl Default for Domain {
-    /// All of it: u, v, cos_i, cos_o in [0, 1] and cos_a in [-1, 1].
+    /// The whole domain: u, v, cos_i, cos_o in [0, 1] and cos_a in [-1, 1].
     fn default() -> Self {
         let unit = Interval { lo: 0.0, hi: 1.0 };
         let cos_a = Interval { lo: -1.0, hi: 1.0 };
@@ -52,7 +52,7 @@ impl Domain {
         }
     }
 
-    /// The interval of `variable`, to be changed.
+    /// The interval of `variable`, mutable.
     pub fn get_mut(&mut self, variable: Variable) -> &mut Interval {
         match variable {
             Variable::U => &mut self.u,
@@ -78,7 +78,7 @@ impl Expr {
         self.ranges(domain)[self.root.index()]
     }
 
-    /// As [`Expr::range`], of every node.
+    /// Returns the range of every node, as [`Expr::range`] does for the root.
     pub fn ranges(&self, domain: &Domain) -> Vec<Option<Interval>> {
         let mut ranges: Vec<Option<Interval>> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -146,7 +146,7 @@ impl std::ops::Neg for Interval {
     }
 }
 
-/// The lesser of two bounds: of zeros -0.0, by which a quotient is negative.
+/// The lesser of two bounds. Of two zeros it is -0.0, if one is: a quotient by -0.0 is negative.
 fn least(a: f64, b: f64) -> f64 {
     match a == b {
         true if a.is_sign_negative() => a,
@@ -155,7 +155,7 @@ fn least(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Libm's functions are right to an ulp; four leave a margin.
+/// Assumed error of libm's functions, in ulps: they are right to one, and four leave a margin.
 const LIBM_ULPS: u32 = 4;
 
 impl Interval {
@@ -181,12 +181,12 @@ impl Interval {
         }
     }
 
-    /// Whether `value` is in it.
+    /// True if the interval contains `value`.
     pub fn contains(self, value: f64) -> bool {
         self.lo <= value && value <= self.hi
     }
 
-    /// Wider by `ulps`; a bound of unknown value becomes infinite.
+    /// Returns an interval that is wider by `ulps`; a NaN bound becomes infinite.
     fn outward_by(mut lo: f64, mut hi: f64, ulps: u32) -> Self {
         for _ in 0..ulps {
             lo = lo.next_down();
@@ -198,8 +198,8 @@ impl Interval {
         }
     }
 
-    /// The numbers next to a result that was rounded to `value`, given the sign of what rounding
-    /// took away: exact results stay exact, so that `1 - u` is seen to be at least 0.
+    /// Returns the interval around a result that was rounded to `value`, where `lost` has the sign
+    /// of the rounding error. Exact results stay exact, so that `1 - u` is known to be at least 0.
     fn around(value: f64, lost: f64) -> Self {
         let known = value.is_finite() && (value == 0.0 || value.abs() > 1e-280);
         if !known || lost.is_nan() {
@@ -211,7 +211,7 @@ impl Interval {
         }
     }
 
-    /// Cut to what a function can give at all.
+    /// Clamps the interval to the range of a function.
     fn within(self, lo: f64, hi: f64) -> Self {
         Self {
             lo: self.lo.clamp(lo, hi),
@@ -221,7 +221,7 @@ impl Interval {
 
     /// The interval of all sums of two numbers, one of each interval.
     pub fn plus(self, other: Self) -> Self {
-        // Knuth's exact sum: what rounding lost of a + b.
+        // Knuth's exact sum: the rounding error of a + b.
         let sum = |a: f64, b: f64| {
             let sum = a + b;
             let rest = sum - a;
@@ -255,8 +255,8 @@ impl Interval {
     }
 
     pub(super) fn over(self, other: Self) -> Self {
-        // Of both signs, if only in 0.0 and -0.0. A difference that is zero is 0.0 and not -0.0, also where
-        // it is at most zero. What is infinite may end as a finite angle.
+        // The divisor has both signs, if only in 0.0 and -0.0. A difference that is zero is 0.0 and
+        // not -0.0, also if it is at most zero. An infinite quotient may end as a finite angle.
         if other.hi >= 0.0 && (other.lo.is_sign_negative() || other.hi == 0.0) {
             return Self::ALL;
         }
@@ -276,7 +276,7 @@ impl Interval {
                 around.within(f64::NEG_INFINITY, 0.0)
             }
         };
-        // 0.0 and not -0.0, so that a bound by division by it has the right sign.
+        // Avoid -0.0, so that quotients by this bound have the right sign.
         let (least, most) = (other.lo.abs(), other.hi);
         Self {
             lo: quotient(self.lo, if self.lo < 0.0 { least } else { most }).lo,
@@ -358,7 +358,7 @@ impl Interval {
             return Some(Self::ALL);
         }
         if self.lo < 0.0 {
-            // Negative numbers have integer powers alone.
+            // Negative numbers have only integer powers.
             let integers = exponent.lo.ceil() <= exponent.hi.floor();
             if integers {
                 return Some(Self::ALL);
@@ -368,7 +368,7 @@ impl Interval {
             return None;
         }
         // Monotone in each operand on either side of 1 and of 0: extremes are at corners.
-        // Not -0.0, whose powers may be negative.
+        // Avoid -0.0, whose powers may be negative.
         let base = Self {
             lo: self.lo.max(0.0).abs(),
             hi: self.hi.abs(),
@@ -426,7 +426,7 @@ impl Interval {
     /// Sine or cosine, which is 1 at `peak` turns and -1 half a turn later.
     fn wave(self, f: Function, peak: f64) -> Self {
         let all = Self { lo: -1.0, hi: 1.0 };
-        // Beyond this, the phase is no longer known to the slack that is left below.
+        // Beyond this, the phase is no longer known to within the slack of 1e-9.
         if self.lo.abs().max(self.hi.abs()) >= 1e6 {
             return all;
         }
@@ -458,7 +458,7 @@ impl Interval {
     /// The angle of the vector (`x`, `self`).
     fn atan2(self, x: Self) -> Self {
         let pi = std::f64::consts::PI;
-        // Around the origin and across the cut behind it, every angle.
+        // Around the origin and across the cut on the negative x axis, every angle is possible.
         if x.lo <= 0.0 && self.contains(0.0) {
             return Self::outward_by(-pi, pi, 1);
         }

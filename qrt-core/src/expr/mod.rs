@@ -55,7 +55,7 @@ impl Id {
     }
 }
 
-/// What an expression may depend on.
+/// A variable of expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Variable {
     /// `u`, the first coordinate of the unit square, in (0, 1).
@@ -71,14 +71,14 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// All of these, in the order of their definition.
+    /// All variables, in the order of their definition.
     pub const ALL: [Self; 5] = [Self::U, Self::V, Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a density of directions.
     pub const ANGLES: [Self; 3] = [Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a map or a Jacobian.
     pub const SQUARE: [Self; 2] = [Self::U, Self::V];
 
-    /// The name by which it is written in a formula.
+    /// The variable's name in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::U => "u",
@@ -100,11 +100,11 @@ impl VariableSet {
     /// `u` and `v`.
     pub const SQUARE: Self = Self(1 << Variable::U as u8 | 1 << Variable::V as u8);
 
-    /// The set of this one alone.
+    /// The set that holds `variable` alone.
     pub fn of(variable: Variable) -> Self {
         Self(1 << variable as u8)
     }
-    /// Whether it holds `variable`.
+    /// True if the set holds `variable`.
     pub fn contains(self, variable: Variable) -> bool {
         self.0 & Self::of(variable).0 != 0
     }
@@ -112,11 +112,11 @@ impl VariableSet {
     pub fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
-    /// Whether all of this are in `other`.
+    /// True if all variables of this set are in `other`.
     pub fn is_subset(self, other: Self) -> bool {
         self.0 & !other.0 == 0
     }
-    /// Whether it is empty: the expression is constant.
+    /// True if the set is empty: the expression is constant.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -166,7 +166,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// All of these, in the order of their definition.
+    /// All functions, in the order of their definition.
     pub const ALL: [Self; 8] = [
         Self::Sin,
         Self::Cos,
@@ -178,7 +178,7 @@ impl Function {
         Self::Log,
     ];
 
-    /// The name by which it is written in a formula.
+    /// The function's name in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",

@@ -1,4 +1,4 @@
-//! From text to [`Expr`], or all that is wrong with the text.
+//! Reads an [`Expr`] from text, or reports all problems of the text.
 
 use super::arena::Arena;
 use super::{Expr, Function, Id, Node, Variable};
@@ -8,15 +8,15 @@ use std::ops::Range;
 /// The longest expression, in bytes.
 pub const MAX_LENGTH: usize = 4096;
 
-/// How deep parentheses, signs and powers may stand within each other.
+/// Maximum depth of nested parentheses, signs and powers.
 pub const MAX_DEPTH: usize = 128;
 
 impl Expr {
     /// Reads an expression that may use the variables `allowed`.
     ///
-    /// Problems name their bytes in `text` (`within`), at an empty path: the caller puts them in
-    /// their place. Codes: `QRT0400` not an expression, `QRT0401` unknown name, `QRT0402` a
-    /// variable that has no value here, `QRT0403` wrong number of operands, `QRT0404` not a number,
+    /// Problems have their bytes in `text` (`within`) and an empty path, which the caller
+    /// completes. Codes: `QRT0400` not an expression, `QRT0401` unknown name, `QRT0402` a variable
+    /// that has no value here, `QRT0403` wrong number of operands, `QRT0404` not a number,
     /// `QRT0405` too long or too deep, `QRT0406` empty.
     ///
     /// ```
@@ -62,7 +62,7 @@ enum Token<'a> {
     End,
 }
 
-/// What ends the reading; unknown names do not, so that all of them are told at once.
+/// A result whose error ends the reading. Unknown names do not end it, so that all are reported.
 type Fallible<T> = Result<T, Box<Problem>>;
 
 struct Parser<'a> {
@@ -83,7 +83,7 @@ fn problem(range: Range<usize>, what: Fault) -> Problem {
     }
 }
 
-/// What ends the reading.
+/// Returns an error that ends the reading.
 fn stop<T>(range: Range<usize>, what: Fault) -> Fallible<T> {
     Err(Box::new(problem(range, what)))
 }
@@ -280,7 +280,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Steps over the symbol at hand, one level down.
+    /// Steps over the current symbol, one level down.
     fn enter(&mut self) -> Fallible<()> {
         if self.depth == MAX_DEPTH {
             return stop(self.range.clone(), Fault::TooDeep { most: MAX_DEPTH });
@@ -302,7 +302,7 @@ impl Parser<'_> {
         self.advance()
     }
 
-    /// The token at hand.
+    /// The text of the current token.
     fn found(&self) -> String {
         self.text[self.range.clone()].to_owned()
     }
@@ -334,7 +334,7 @@ impl Parser<'_> {
     }
 }
 
-/// The bytes that belong to the number, right or wrong, at the start of `text`: `1.2.3` is one.
+/// Number of bytes of the number, valid or not, at the start of `text`: `1.2.3` is one number.
 fn number_length(text: &[u8]) -> usize {
     let mut length = 0;
     while let Some(byte) = text.get(length) {
@@ -386,7 +386,7 @@ fn is_function(name: &str) -> bool {
     function_names().any(|f| f == name)
 }
 
-/// How many operands the function takes.
+/// Number of operands of the function.
 fn operand_count(name: &str) -> usize {
     OTHERS
         .iter()

@@ -1,5 +1,5 @@
-//! Promises about every expression, tried on random ones: printing and reading, derivatives
-//! against differences, simplification against the formula as written, bounds against values.
+//! Properties of all expressions, tested on random ones: printing and reading, derivatives against
+//! differences, simplification against the formula as written, bounds against values.
 
 use super::*;
 use proptest::prelude::*;
@@ -47,8 +47,9 @@ fn point() -> impl Strategy<Value = Variables> {
     )
 }
 
-/// Runs `test` on formulas at points; it says whether the case told anything. Fails unless enough
-/// did. The seed is fixed: the tests compare floats, whose rare bad luck should not depend on a day.
+/// Runs `test` on random formulas at random points. `test` returns true for a conclusive case, and
+/// fewer than `enough` of them are a failure. The seed is fixed: the tests compare floats, and rare
+/// rounding failures should not depend on the run.
 fn try_on_many(cases: u32, enough: u32, test: impl Fn(&Expr, &Variables) -> bool) {
     let config = Config {
         cases,
@@ -86,7 +87,7 @@ fn at_point(at: &Variables) -> Domain {
     domain
 }
 
-/// Whether the expression and all its parts have finite values, untroubled by rounding.
+/// True if the expression and all its parts have finite values with small rounding errors.
 fn is_tame(e: &Expr, at: &Variables) -> bool {
     let mut values = Vec::new();
     e.eval_in(at, &mut values);

@@ -1,4 +1,4 @@
-//! Simplification: a canonical form in which like terms meet, and the way back.
+//! Simplification: a canonical form that merges like terms, and the conversion back.
 //!
 //! A [`Sum`] is a list of products; a [`Product`] is a number times powers of [`Atom`]s; an atom is
 //! a variable, a function of sums, or a sum that stands as a factor. Then `a b - b a` is an empty
@@ -7,8 +7,8 @@
 //!
 //! The result equals the original up to rounding at every point of the domain (`u`, `v` in (0, 1),
 //! the cosines in their ranges) where the original and all its parts have finite values. Where the
-//! original has none, the result may have one: `x/x` becomes 1. So whoever cares whether a formula
-//! is defined checks it as written.
+//! original has no value, the result may have one: `x/x` becomes 1. So a check that a formula is
+//! defined must use the formula as written.
 
 use super::{Domain, Expr, Function, Id, Interval, Node, Variable};
 use std::collections::HashMap;
@@ -16,15 +16,16 @@ use std::collections::HashMap;
 mod rules;
 mod write;
 
-/// More parts than any formula of a scene has: beyond, an expression is left as it is.
+/// Maximum number of parts, more than any formula of a scene has. A larger expression is left as it
+/// is.
 const MAX_PARTS: usize = 200_000;
 
-/// A relative difference that rounding may have made.
+/// Maximum relative difference that counts as rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Expr {
-    /// A shorter expression of the same value (up to rounding) wherever this one and all its parts
-    /// are finite; itself if there is none.
+    /// Returns a shorter expression of the same value (up to rounding) wherever this one and all
+    /// its parts are finite; a copy if there is none.
     ///
     /// ```
     /// use qrt_core::expr::{Expr, Variable};
@@ -41,7 +42,7 @@ impl Expr {
     }
 }
 
-/// What evaluating costs, roughly, in additions.
+/// The rough cost of evaluation, in additions.
 fn cost(expr: &Expr) -> usize {
     let weigh = |node: &Node| match node {
         Node::Number(_) | Node::Variable(_) => 0,
@@ -112,7 +113,7 @@ enum Atom {
 
 struct Canon {
     atoms: Vec<Atom>,
-    /// What is known of each atom's value over the whole domain.
+    /// The known bounds of each atom's value over the whole domain.
     ranges: Vec<Interval>,
     known: HashMap<Vec<u64>, Atoms>,
     parts: usize,
@@ -158,7 +159,7 @@ fn constant(sum: &Sum) -> Option<f64> {
     }
 }
 
-/// The exponent without the rounding that keeps `1/51 + 50/51` from being 1.
+/// Rounds an exponent to a multiple of 1/2 if only rounding separates them, as in `1/51 + 50/51`.
 fn settled(exponent: f64) -> f64 {
     let near = (exponent * 2.0).round() / 2.0;
     if (exponent - near).abs() <= ROUNDING * exponent.abs().max(1.0) {
@@ -252,8 +253,9 @@ impl Canon {
         }
     }
 
-    /// The sum as one product: if it has several terms, as its largest coefficient times an atom
-    /// that is the same for all multiples of it. The atom is not negative if that can be known.
+    /// Returns the sum as one product. A sum of several terms is its largest coefficient times an
+    /// atom that is the same for all multiples of it. The atom is not negative if that can be
+    /// known.
     fn product(&mut self, sum: &Sum) -> Option<Product> {
         match &sum[..] {
             [] => Some(Product::new(0.0, Vec::new())),
@@ -289,8 +291,8 @@ impl Canon {
         self.collect(left)
     }
 
-    /// Like terms become one, sums that stand alone in a term are opened, and squares of sine and
-    /// cosine meet.
+    /// Merges like terms, opens sums that are alone in a term, and combines squares of sine and
+    /// cosine.
     fn collect(&mut self, terms: Vec<Product>) -> Option<Sum> {
         let mut sum = self.merged(terms)?;
         while let Some(shorter) = self.pythagoras(&sum) {
@@ -329,7 +331,7 @@ impl Canon {
             }
         }
         sum.retain(|term| term.coefficient != 0.0);
-        // Several numbers, of which some are roots, are one.
+        // Merge several numbers, some of them roots, into one.
         let is_number = |term: &Product| {
             term.factors
                 .iter()
@@ -349,7 +351,7 @@ impl Canon {
         Some(sum)
     }
 
-    /// With R any product: c R sin^2 + c R cos^2 = c R, and c R - c R sin^2 = c R cos^2.
+    /// Applies, with R any product: c R sin^2 + c R cos^2 = c R, and c R - c R sin^2 = c R cos^2.
     fn pythagoras(&mut self, sum: &Sum) -> Option<Vec<Product>> {
         for (i, term) in sum.iter().enumerate() {
             for factor in &term.factors {
@@ -390,7 +392,7 @@ impl Canon {
         None
     }
 
-    /// The product with more factors.
+    /// Multiplies `product` by the factors `more`.
     fn joined(&self, product: &Product, more: &[Factor]) -> Option<Product> {
         let mut coefficient = product.coefficient;
         let mut factors = product.factors.clone();
@@ -504,7 +506,7 @@ impl Canon {
         vec![Product::new(1.0, vec![Factor::new(atom, 1.0)])]
     }
 
-    /// The number of `atom`, an old one if there is an equal.
+    /// Returns the number of `atom`, that of an equal one if there is one.
     fn atom(&mut self, atom: Atom) -> Atoms {
         let key = key(&atom);
         if let Some(known) = self.known.get(&key) {
@@ -591,7 +593,7 @@ fn order(a: &[Factor], b: &[Factor]) -> std::cmp::Ordering {
     a.len().cmp(&b.len())
 }
 
-/// Equal for equal atoms alone.
+/// Returns a key that is equal only for equal atoms.
 fn key(atom: &Atom) -> Vec<u64> {
     fn put(key: &mut Vec<u64>, sum: &Sum) {
         key.push(sum.len() as u64);

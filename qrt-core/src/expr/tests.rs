@@ -1,4 +1,5 @@
-//! The language, its derivatives, its simplification and its bounds, each against something else.
+//! Tests of the language, its derivatives, its simplification and its bounds, each against an
+//! independent reference.
 
 use super::*;
 use crate::syntax::Problem;
@@ -163,7 +164,7 @@ fn depth_and_length_have_limits_instead_of_crashes() {
         assert_eq!(deep(open, MAX_DEPTH + 1, close), Err("QRT0405"));
         assert_eq!(deep(open, 100_000, close), Err("QRT0405"));
     }
-    // The longest sum is as deep as it is long, and neither printing nor anything else minds.
+    // The longest sum is as deep as it is long; printing and all other operations support it.
     let long = "u+v*".repeat(MAX_LENGTH / 6 - 1) + "u";
     let e = read(&long);
     assert_eq!(read(&e.to_string()), e);

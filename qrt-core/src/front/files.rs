@@ -1,4 +1,4 @@
-//! Where the files come from that a scene names: a folder on disk, or bytes that a program holds.
+//! The source of the files that a scene names: a folder on disk, or bytes in memory.
 
 use crate::scene::meshes::MOST_FACES;
 use std::fs::File;
@@ -7,8 +7,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// A scene's own files: its meshes and their material libraries.
 ///
-/// A scene may come from a stranger, so of a disk only what lies below the scene's folder is read, links
-/// followed, unless [`Files::allowing`] names other folders; and only regular files.
+/// A scene may be untrusted. So only regular files below the scene's folder are read from a disk,
+/// links followed, unless [`Files::allowing`] names other folders.
 ///
 /// ```
 /// use qrt_core::front::{Files, parse_with};
@@ -37,17 +37,18 @@ pub struct Files<'a> {
 enum Origin<'a> {
     /// The files below a folder on disk.
     Disk(&'a Path),
-    /// Files that a program holds, by name and contents.
+    /// Files in memory, by name and contents.
     Held(&'a [(&'a str, &'a [u8])]),
 }
 
 impl<'a> Files<'a> {
-    /// The files of a folder on disk, which relative names start from.
+    /// Gives access to the files of `folder` on disk, from which relative names start.
     pub fn of_folder(folder: &'a Path) -> Self {
         Self::below(Path::new(""), folder)
     }
 
-    /// The files of `folder`, itself relative to `root`; errors call them as seen from `root`.
+    /// Gives access to the files of `folder`, itself relative to `root`. Errors name files relative
+    /// to `root`.
     pub fn below(root: &'a Path, folder: &'a Path) -> Self {
         Self::new(folder, Origin::Disk(root))
     }
@@ -61,7 +62,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The same, and what lies below these folders on disk, which are relative to the current one.
+    /// Also allows files below `folders` on disk, which are relative to the current folder.
     pub fn allowing(self, folders: &'a [PathBuf]) -> Self {
         Self {
             allowed: folders,
@@ -69,18 +70,18 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The same, with meshes of at most so many triangles in all, each time they are placed; by itself,
-    /// [`MOST_FACES`].
+    /// Limits the number of triangles of all meshes, each placement counted, to `most_faces`. The
+    /// default is [`MOST_FACES`].
     pub fn most_faces(self, most_faces: usize) -> Self {
         Self { most_faces, ..self }
     }
 
-    /// The files of these names and contents, and no others.
+    /// Gives access to `files`, by name and contents, and to no others.
     pub fn held(files: &'a [(&'a str, &'a [u8])]) -> Self {
         Self::new(Path::new(""), Origin::Held(files))
     }
 
-    /// What errors call the file that the scene calls `name`.
+    /// Returns the path by which errors name the file that the scene calls `name`.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
@@ -89,12 +90,12 @@ impl<'a> Files<'a> {
         self.most_faces
     }
 
-    /// Whether the scene stands in a crate, whose files alone are read.
+    /// True if the scene belongs to a crate, whose files alone are read.
     pub(crate) fn are_of_crate(&self) -> bool {
         matches!(self.origin, Origin::Disk(root) if root != Path::new(""))
     }
 
-    /// Whether `path` leads to a place below the scene's folder, or below one that is allowed.
+    /// True if `path` leads to a place below the scene's folder, or below an allowed one.
     fn is_inside(&self, root: &Path, path: &Path) -> bool {
         let path = real(&root.join(path), MOST_LINKS);
         let folder = root.join(self.folder);
@@ -106,8 +107,8 @@ impl<'a> Files<'a> {
             })
     }
 
-    /// The bytes at `path`, at most `most`, if it is inside. Whatever a front end reads, it reads here or
-    /// by [`Files::read_named`].
+    /// Reads the bytes at `path`, at most `most`, if it is inside. Front ends read all files by
+    /// this method or by [`Files::read_named`].
     pub(crate) fn read(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
         match self.origin {
             Origin::Disk(root) if !self.is_inside(root, path) => Err(Unread::Outside),
@@ -115,8 +116,8 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The bytes at `path`, at most `most`, wherever it is: somebody named it who may. Only of a regular
-    /// file: anything else (a pipe, a device) might never end.
+    /// Reads the bytes at `path`, at most `most`, wherever it is: the caller has the right to name
+    /// it. Reads regular files only, because a pipe or a device might never end.
     pub(crate) fn read_named(&self, path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
         let bytes = match self.origin {
             Origin::Disk(root) => {
@@ -127,7 +128,8 @@ impl<'a> Files<'a> {
                         .then_some(())
                         .ok_or(Unread::Irregular { is_folder })
                 };
-                // Before it is opened, for a pipe would wait; and after, for it may be another by then.
+                // Check before opening, because a pipe would block, and after, because the file may
+                // have been replaced.
                 regular(std::fs::metadata(&path)?)?;
                 let file = File::open(path)?;
                 regular(file.metadata()?)?;
@@ -148,11 +150,11 @@ impl<'a> Files<'a> {
     }
 }
 
-/// Links to nothing that are followed one after another: more may go in a circle.
+/// Maximum number of dangling links that are followed one after another: more may form a cycle.
 const MOST_LINKS: u32 = 40;
 
-/// Where `path` leads, at most so many links to nothing followed; what is not there is taken by its words. Not
-/// absolute, and so below no folder, where that cannot be told.
+/// Resolves `path`, following at most `links` dangling links; parts that do not exist are resolved
+/// lexically. The result is not absolute, and so below no folder, if `path` cannot be resolved.
 fn real(path: &Path, links: u32) -> PathBuf {
     let here = Path::new(".");
     let path = if path == Path::new("") { here } else { path };
@@ -172,15 +174,15 @@ fn real(path: &Path, links: u32) -> PathBuf {
     }
 }
 
-/// Why a file cannot be read.
+/// The reason that a file cannot be read.
 pub(crate) enum Unread {
     /// It lies outside the folders that may be read.
     Outside,
     /// It is not a regular file, but perhaps a folder.
     Irregular { is_folder: bool },
-    /// It has more bytes than may be.
+    /// It has more bytes than allowed.
     TooLarge,
-    /// What the system says.
+    /// The error of the operating system.
     Failed(io::Error),
 }
 
@@ -196,7 +198,7 @@ mod tests {
     use std::fs;
     use std::os::unix::fs::symlink;
 
-    /// Whether there is something tells nobody where a link leads.
+    /// Checks that a link that leads outside is refused, whether its target exists or not.
     #[test]
     fn links_lead_outside_whether_there_is_something_or_not() {
         let name = format!("qrt-links-{}", std::process::id());

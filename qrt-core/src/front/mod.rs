@@ -13,7 +13,7 @@ use crate::valid::{self, ValidScene};
 pub use files::Files;
 pub(crate) use files::Unread;
 
-/// Bytes that a scene file may have.
+/// Maximum number of bytes of a scene file.
 pub const MAX_BYTES: u64 = 16 << 20;
 
 /// A scene that was read and checked, with the text it came from.
@@ -29,7 +29,8 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// What is not wrong, but surely not meant, each at its place; none if there is nothing.
+    /// Returns the warnings, about parts that are not errors but probably unintended, each at its
+    /// place; `None` if there are none.
     pub fn warnings(&self) -> Option<Report> {
         let found = self.valid.warnings();
         (!found.is_empty()).then(|| self.report(found.to_vec()).warning())
@@ -43,18 +44,20 @@ impl Loaded {
     }
 }
 
-/// The scene of the file at `path`, with overrides such as `film.width=8`, meshes and all.
+/// Loads and checks the scene of the file at `path`, with overrides such as `film.width=8` and its
+/// meshes.
 ///
 /// # Errors
-/// Everything that is wrong with it, with places.
+/// All problems of the scene, with places.
 pub fn load(path: &std::path::Path, sets: &[String]) -> Result<Loaded, Report> {
     load_with(path, sets, |files| files)
 }
 
-/// As [`load`], with what `access` makes of the scene's own files: [`Files::allowing`].
+/// Loads as [`load`] does, with `access` changing the access to the scene's own files: see
+/// [`Files::allowing`].
 ///
 /// # Errors
-/// Everything that is wrong with it, with places.
+/// All problems of the scene, with places.
 pub fn load_with<'a>(
     path: &'a std::path::Path,
     sets: &[String],
@@ -69,11 +72,11 @@ fn folder_of(path: &std::path::Path) -> &std::path::Path {
     path.parent().unwrap_or(std::path::Path::new(""))
 }
 
-/// As [`load`], of a path relative to `root`, below which all its files are; errors name files as seen
-/// from there.
+/// Loads as [`load`] does, from a path relative to `root`, below which all its files are. Errors
+/// name files relative to `root`.
 ///
 /// # Errors
-/// Everything that is wrong with it, with places.
+/// All problems of the scene, with places.
 pub fn load_below(
     root: &std::path::Path,
     path: &std::path::Path,
@@ -86,10 +89,10 @@ pub fn load_below(
     from_source(source, sets, files)
 }
 
-/// The scene of a YAML text; `folder` is where its meshes are.
+/// Reads and checks the scene of a YAML text; its meshes are in `folder`.
 ///
 /// # Errors
-/// Everything that is wrong with it, with places.
+/// All problems of the scene, with places.
 ///
 /// ```
 /// let report = qrt_core::front::parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
@@ -104,10 +107,10 @@ pub fn parse(
     parse_with(text, name, sets, Files::of_folder(folder))
 }
 
-/// As [`parse`], with meshes from wherever `files` says.
+/// Reads and checks as [`parse`] does, with meshes from `files`.
 ///
 /// # Errors
-/// Everything that is wrong with it, with places.
+/// All problems of the scene, with places.
 pub fn parse_with(
     text: &str,
     name: &str,
@@ -144,10 +147,10 @@ fn from_source(source: Source, sets: &[String], files: Files<'_>) -> Result<Load
     }
 }
 
-/// The scene of a tree, whatever front end made it.
+/// Decodes and checks the scene of a tree from any front end.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// All problems of the scene.
 pub fn of_tree(tree: &Node, files: Files<'_>) -> Result<ValidScene, Vec<Problem>> {
     decoded(tree, files, Problems::default())
 }
@@ -197,13 +200,13 @@ impl Scene {
     /// Checks the scene, with the meshes that it names in `folder`.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of the scene.
     pub fn validate(self, folder: &std::path::Path) -> Result<ValidScene, InvalidScene> {
         let meshes = obj::load_all(&self, Files::of_folder(folder));
         valid::validate(self, &meshes)
     }
 
-    /// The scene of a YAML text called `name`, read but not checked.
+    /// Reads the scene of a YAML text called `name`, without checking it.
     ///
     /// ```
     /// let scene = qrt_core::scene::Scene::from_yaml(
@@ -222,7 +225,7 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// Everything that keeps it from being read, with places.
+    /// All problems that prevent reading, with places.
     pub fn from_yaml(text: &str, name: &str) -> Result<Self, Report> {
         let source = Source::new(name, text);
         let mut problems = Problems::default();

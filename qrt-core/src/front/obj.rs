@@ -1,13 +1,13 @@
 //! Meshes from Wavefront OBJ files, with the materials of their MTL files.
 //!
-//! `tobj` reads the shape, but it accepts what is no mesh (NaN vertices, faces of two corners),
-//! knows no continued lines and no comment after a statement, and names no line. So it reads
-//! through a `Scanner`, which checks each statement and hands on vertices and faces; the faces are
-//! then cut into triangles (`polygon`).
+//! `tobj` reads the shape, but it accepts invalid meshes (NaN vertices, faces of two corners),
+//! supports neither continued lines nor comments after a statement, and reports no line. So it
+//! reads through a `Scanner`, which checks each statement and passes vertices and faces on. The
+//! module `polygon` then cuts the faces into triangles.
 //!
-//! Of a material, `Kd` is the albedo of a Lambertian surface and `Ke` its radiance; what an MTL
-//! file says about highlights and transparency has no part in a scene. `tobj` panics on a colour
-//! of one number, which is a grey, or of two: `mtl` reads them.
+//! A material's `Kd` is the albedo of a Lambertian surface, and `Ke` its radiance. Highlights and
+//! transparency of an MTL file are ignored. `tobj` panics on a colour of one number, which is a
+//! grey, or of two, so `mtl` reads colours.
 
 mod mtl;
 mod polygon;
@@ -32,11 +32,11 @@ use std::rc::Rc;
 /// The largest file that is read, in bytes: about five million triangles.
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// Bytes that a scene's meshes and material libraries may have for each face that it may have: 1 GiB in all,
-/// unless memory allows fewer faces.
+/// Maximum number of bytes of a scene's meshes and material libraries for each allowed face: 1 GiB
+/// in all, unless memory allows fewer faces.
 const BYTES_OF_FACE: u64 = 256;
 
-/// The meshes that a scene names. Each file is read once, however many entries name it.
+/// Reads the meshes that a scene names. Each file is read once, even if several entries name it.
 pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
     let mut wanted = BTreeMap::<&str, BTreeSet<bool>>::new();
     for primitive in &scene.geometry {
@@ -109,7 +109,7 @@ pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
     )
 }
 
-/// The triangles that a scene's meshes may have, and as many of them that none has taken yet.
+/// The maximum number of triangles of a scene's meshes, and the number that no mesh has taken yet.
 #[derive(Clone, Copy, Debug)]
 struct Faces {
     most: usize,
@@ -122,7 +122,7 @@ impl Faces {
     }
 }
 
-/// The whole of a file.
+/// Reads a whole file.
 fn bytes_of(files: Files<'_>, path: &Path, is_library: bool) -> Result<Rc<[u8]>, MeshFile> {
     let bytes = files.read(path, MAX_BYTES).map(Rc::from);
     bytes.map_err(|why| unread(files, path, is_library, why))
@@ -146,10 +146,10 @@ fn unread(files: Files<'_>, path: &Path, is_library: bool, why: Unread) -> MeshF
     }
 }
 
-/// The bytes of a material library.
+/// A function that reads the bytes of a material library.
 type Library<'a> = &'a mut dyn FnMut(&Path) -> Result<Rc<[u8]>, MeshFile>;
 
-/// As [`load`], of the bytes themselves.
+/// Reads a mesh as [`load`] does, from its bytes.
 fn parse(
     path: &Path,
     bytes: &[u8],
@@ -160,7 +160,7 @@ fn parse(
     let text = text_of(path, bytes)?;
     let mut scanner = Scanner::new(path, &text, wants_materials, faces);
     let mut shape = BufReader::new(&mut scanner);
-    // The scanner hands on no `mtllib`.
+    // The scanner passes no `mtllib` on.
     let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());
     let read = tobj::load_obj_buf(&mut shape, &tobj::LoadOptions::default(), no_library);
     let (models, _) = read.map_err(|error| {
@@ -177,7 +177,7 @@ fn parse(
     });
     let uses: Vec<usize> = uses.collect::<Result<_, _>>()?;
 
-    // It hands on no groups either: all is one model.
+    // The scanner passes no groups on either, so there is one model.
     let mesh = models.into_iter().next().map(|model| model.mesh);
     let mesh = mesh.unwrap_or_default();
     let corner = |index: &u32| DVec3::from_slice(&mesh.positions[3 * *index as usize..]);
@@ -203,7 +203,7 @@ fn parse(
     })
 }
 
-/// A file as text. Bytes that are not UTF-8 do no harm in a comment.
+/// Returns a file as text. Bytes that are not UTF-8 do no harm in a comment.
 fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let line = line_after(&bytes[..at]);
@@ -213,8 +213,8 @@ fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
     Ok(String::from_utf8_lossy(bytes))
 }
 
-/// The statements of a text, each with the line it starts in: lines of comments alone and blank lines
-/// left out, continued lines joined, no blanks around them.
+/// Iterates over the statements of a text, each with the line it starts in. Comment lines and blank
+/// lines are left out, continued lines joined, and surrounding blanks trimmed.
 ///
 /// A backslash at the end of a line continues it, unless it belongs to a comment, which ends with its line.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
@@ -242,7 +242,7 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     std::iter::from_fn(next).filter(|(_, text)| !(text.is_empty() || text.starts_with('#')))
 }
 
-/// The lines of a text, without what ends them but perhaps a CR.
+/// Iterates over the lines of a text, without their terminators except perhaps a CR.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     let ends = line_starts(text.as_bytes()).map(Some).chain([None]);
     let mut start = 0;
@@ -263,7 +263,7 @@ fn has_comment(text: &str) -> bool {
     text.split_whitespace().any(|word| word.starts_with('#'))
 }
 
-/// The keyword of a statement, and what follows it.
+/// Splits a statement into its keyword and the rest.
 fn split(statement: &str) -> Result<(&str, &str), MeshFile> {
     if is_continued(statement) {
         return Err(MeshFile::Continued);
@@ -292,7 +292,7 @@ fn numbers(text: &str, most: usize, is_library: bool) -> Result<Vec<f64>, MeshFi
     words(text).take(most).map(number).collect()
 }
 
-/// The name after a keyword, which must be there and be text.
+/// Returns the name after `keyword`, which must not be empty and must be UTF-8.
 fn name(keyword: &str, name: &str, nameless: MeshFile) -> Result<String, MeshFile> {
     if name.is_empty() {
         return Err(nameless);

@@ -2,8 +2,8 @@
 //!
 //! A key that holds `.`, `=` or `[` is written in quotation marks: `materials."a.b".mirror={}`.
 //!
-//! They change the tree before it is decoded, so that a value from the command line is read and
-//! checked like one of the file; its place is the override's own text.
+//! Overrides change the tree before it is decoded, so that a value from the command line is read
+//! and checked like one of the file. Its place is in the override's own text.
 
 use crate::front::yaml;
 use crate::scene::text::Data;
@@ -12,15 +12,15 @@ use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
 use crate::syntax::{Override as Fault, Problems, Source, Step};
 use std::sync::Arc;
 
-/// An override that was read: where to put what.
+/// A parsed override: a path, and the value to put there.
 #[derive(Clone, Debug)]
 pub struct Override {
     steps: Vec<(Step, Span)>,
     value: Node,
 }
 
-/// Reads `key=value`, the text of `source`, which is source number `number`; reports what is wrong with
-/// the key, or with the value as YAML.
+/// Reads `key=value`, the text of `source`, which is source number `number`. Reports problems with
+/// the key, and with the value as YAML.
 pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Override> {
     let text = source.text.as_str();
     let span = |start: usize, end: usize| Span {
@@ -74,7 +74,7 @@ pub fn read(source: &Source, number: u32, problems: &mut Problems) -> Option<Ove
     (problems.count() == known).then_some(Override { steps, value })
 }
 
-/// The place of the `=` behind the keys, which is in no quotes; none if there is none.
+/// Returns the place of the `=` after the keys, outside quotes; `None` if there is none.
 ///
 /// # Errors
 /// The place of a quotation mark that is never closed.
@@ -96,9 +96,9 @@ fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
     }
 }
 
-/// A key in quotation marks at the beginning of `text`, and the bytes that it takes with the spaces
-/// around it. As in [`Path`](crate::syntax::Path), a backslash stands before a quotation mark or a
-/// backslash of the key's own.
+/// Returns a quoted key at the beginning of `text`, and the number of bytes of the quoted key and
+/// the spaces around it. As in [`Path`](crate::syntax::Path), a backslash stands before a quotation
+/// mark or a backslash of the key's own.
 fn quoted(text: &str) -> Option<(String, usize)> {
     let inner = text.trim_start().strip_prefix('"')?;
     let start = text.len() - inner.len();
@@ -118,8 +118,8 @@ fn quoted(text: &str) -> Option<(String, usize)> {
     None
 }
 
-/// Puts the override's value into the tree. A key that is not there is added (blocks that may be
-/// left out are filled with their defaults); a step that leads to nothing is reported.
+/// Puts the override's value into the tree. Adds a key that is missing, and fills optional blocks
+/// with their defaults. Reports a step that leads to nothing.
 pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
     let defaults = defaults();
     let mut default = Some(&defaults);
@@ -164,8 +164,8 @@ pub fn apply(tree: &mut Node, set: Override, problems: &mut Problems) {
     *node = set.value;
 }
 
-/// What the blocks that may be left out hold then, as far as an override may reach into it.
-/// `path_bits` is not among it: under the product lattice it follows from the rest.
+/// Returns the defaults of optional blocks, as far as an override may reach into them. `path_bits`
+/// is left out: under the product lattice it follows from the other keys.
 fn defaults() -> Data {
     let mut sampling = Sampling::default().encode();
     if let Data::Map(entries) = &mut sampling {

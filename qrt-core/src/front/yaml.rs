@@ -1,12 +1,12 @@
-//! YAML text to the spanned tree.
+//! Reads YAML text to the spanned tree.
 //!
-//! The events of `saphyr-parser` carry the places of every key and value, and from them the tree is
-//! built here, with an explicit stack: what YAML allows but a scene does not mean (duplicate keys,
-//! tags, several documents, merge keys, keys that are not names) is an error with its place. Aliases
-//! share what they stand for; how many values a scene holds, what aliases add to them and how deep
-//! they nest has limits.
+//! The events of `saphyr-parser` carry the places of every key and value. This module builds the
+//! tree from them, with an explicit stack. YAML that has no meaning in a scene (duplicate keys,
+//! tags, several documents, merge keys, keys that are not names) is an error with its place.
+//! Aliases share their values. The number of values, the values that aliases add and the nesting
+//! depth have limits.
 //!
-//! ARCHITECTURE.md says why this is not left to a reader that goes from YAML straight to types.
+//! ARCHITECTURE.md explains why no deserializer goes from YAML straight to types.
 
 mod locator;
 mod tabs;
@@ -19,17 +19,18 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Values that a scene's text may hold, before aliases are expanded.
+/// Maximum number of values in a scene's text, before aliases are expanded.
 pub const MAX_VALUES: usize = 1 << 21;
-/// Values that aliases may add to a scene.
+/// Maximum number of values that aliases may add to a scene.
 pub const ALIAS_BUDGET: usize = 1 << 18;
-/// Bytes of text that aliases may add to a scene.
+/// Maximum number of bytes of text that aliases may add to a scene.
 pub const ALIAS_BYTES: usize = 1 << 24;
-/// Levels of lists and maps in a scene.
+/// Maximum number of nested levels of lists and maps in a scene.
 pub const MAX_DEPTH: usize = 64;
 
-/// The tree of `source`'s bytes `range`, if they could be read to their end; without what is wrong with
-/// it. Places are marked as of source number `number`. Syntax errors end the reading.
+/// Reads the tree of the bytes `range` of `source`, without its faulty entries. `None` if it is
+/// empty, cannot be read to its end, or has a merge key. Places have source number `number`. A
+/// syntax error ends the reading.
 pub fn read(
     source: &Source,
     range: Range<usize>,
@@ -55,7 +56,7 @@ pub fn read(
     let Builder { root, merged, .. } = builder;
     let root = root.filter(|node| node.value != Value::Null);
     if root.is_none() && problems.count() == known {
-        // A value of an override is a part of its text.
+        // An override's value is only a part of its text.
         let is_scene = range == (0..source.text.len());
         let at = Span {
             source: number,
@@ -68,17 +69,17 @@ pub fn read(
             problems.add(at, Override::Nothing);
         }
     }
-    // What a merge would have brought in would be reported as missing.
+    // The decoder would report the keys that a merge adds as missing.
     root.filter(|_| !merged)
 }
 
-/// What kind of text `saphyr-parser` refuses. Its errors are words and a place, without a kind: the words are
-/// read here and nowhere else, and a test holds those of the version in use.
+/// The kind of a syntax error of `saphyr-parser`. Its errors have a message and a place, but no
+/// kind. Only this type interprets the messages, and a test pins those of the version in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     UnknownAlias,
     TooDeep,
-    /// A character that no editor shows.
+    /// A character that editors do not show.
     Invisible,
     /// A tab in the indentation of a line.
     Indentation,
@@ -106,7 +107,7 @@ impl Refusal {
     }
 }
 
-/// Reading cannot go on; the reason is among the problems.
+/// The error of a reading that cannot continue; the reason is among the problems.
 struct Stop;
 
 /// A list or map that is not yet complete.
@@ -129,7 +130,7 @@ enum Body {
 struct Key {
     text: String,
     span: Span,
-    /// Whether the value is to be dropped, the key being faulty.
+    /// True if the key is faulty, so that its value is dropped.
     faulty: bool,
 }
 
@@ -139,11 +140,11 @@ struct Builder<'a> {
     root: Option<Node>,
     anchors: HashMap<usize, Node>,
     values: usize,
-    /// Values and bytes that aliases have added.
+    /// Number of values and of bytes that aliases have added.
     expanded: [usize; 2],
     documents: usize,
     problems: &'a mut Problems,
-    /// Whether there was a merge key.
+    /// True if there was a merge key.
     merged: bool,
 }
 
@@ -225,9 +226,9 @@ impl<'a> Builder<'a> {
             Refusal::TooDeep => (at, Yaml::TooDeep { most: MAX_DEPTH }),
             Refusal::Invisible => (at, Yaml::Invisible { why }),
             Refusal::Separation => (at, Yaml::TabSeparates { why }),
-            // Of a text of several lines, the parser names the first.
+            // For a text of several lines, the parser reports the first line.
             Refusal::Indentation => (tab.unwrap_or(at), Yaml::TabIndents { why }),
-            // It may be the tab that the parser stumbled over.
+            // The tab may be the cause of the error.
             Refusal::Syntax if tab == Some(at) => (at, Yaml::TabIndents { why }),
             Refusal::Syntax => (at, Yaml::Syntax { why }),
         };
@@ -235,7 +236,7 @@ impl<'a> Builder<'a> {
         self.stop(span, what)
     }
 
-    /// Whether the next value is a key, not a value.
+    /// True if the next event is a key, not a value.
     fn at_key(&self) -> bool {
         matches!(
             self.stack.last(),
@@ -282,7 +283,7 @@ impl<'a> Builder<'a> {
                 (Value::Map(Arc::new(entries)), last)
             }
         };
-        // The end of a block is found only at what follows it, often lines below.
+        // The parser reports the end of a block at the token that follows it, often lines below.
         let end = if self.locator.is_bracket(event) {
             event.end
         } else {
@@ -408,7 +409,7 @@ impl<'a> Builder<'a> {
 mod tests {
     use super::*;
 
-    /// Were the parser to word its errors otherwise, authors would be told less.
+    /// Checks that the parser words its errors as expected: otherwise problems would lose detail.
     #[test]
     fn refusals_are_known_by_the_words_of_the_parser() {
         let deep = "[".repeat(1 << 17);

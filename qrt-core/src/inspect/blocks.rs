@@ -6,33 +6,33 @@ use qrt_circuit::lower::Cost;
 use qrt_circuit::{Block, BlockId, RegisterId};
 use std::collections::HashMap;
 
-/// A block of the program, and what it costs.
+/// A block of the program, and its cost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockFigures {
-    /// The block's index in the program's list; the first of several of one name within the same
-    /// block.
+    /// The block's index in the program's list. If several blocks within the same block have one
+    /// name, the first one's index.
     pub block: BlockId,
-    /// The names of the blocks around it and its own, from below the root, each with the bounce
-    /// where it has one: `find_intersection 1/plane 3`. The root's is `oracle`.
+    /// The block's path: the names of the blocks around it and its own, from below the root. Each
+    /// has its bounce, if there is one: `find_intersection 1/plane 3`. The root's is `oracle`.
     pub path: String,
     /// The block's stage and the bounce that it belongs to.
     pub label: Label,
-    /// How many blocks are around it: 0 for the root.
+    /// Number of blocks around it: 0 for the root.
     pub level: u32,
-    /// What the block costs in the whole call, without the blocks within it.
+    /// The block's cost in the whole call, without its inner blocks.
     pub own: Cost,
-    /// What the block costs in the whole call, the blocks within it included.
+    /// The block's cost in the whole call, its inner blocks included.
     pub total: Cost,
     /// [`BlockFigures::total`] in the compute part alone.
     pub compute: Cost,
-    /// Qubits of the registers that it computes, the blocks within it included.
+    /// Qubits of the registers that it computes, its inner blocks included.
     pub width: u64,
 }
 
 impl Inspection {
-    /// The blocks, each before those within it. Blocks of one name within one block are one: a
+    /// The blocks, each before its inner blocks. Blocks of one name within one block are merged: a
     /// search may pass a plane twice. The `own` costs of all blocks add up to the total of the
-    /// root, which is that of the whole call.
+    /// root, the cost of the whole call.
     pub fn blocks(&self) -> Vec<BlockFigures> {
         let blocks = &self.whole.blocks;
         let (one, within) = merged(blocks);
@@ -52,7 +52,7 @@ impl Inspection {
             }
         }
         let mut total = own.clone();
-        // A block stands after the one around it in the list.
+        // In the list, a block comes after the block around it.
         for place in (1..blocks.len()).rev() {
             if let Some(parent) = blocks[place].parent
                 && one[place] == place
@@ -86,7 +86,7 @@ impl Inspection {
     }
 }
 
-/// By block: the first of its name within the same block; and the blocks within each.
+/// For each block, the first of its name within the same block, and the list of its inner blocks.
 fn merged(blocks: &[Block]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut one: Vec<usize> = Vec::with_capacity(blocks.len());
     let mut within = vec![Vec::new(); blocks.len()];

@@ -1,8 +1,8 @@
 //! The call in the paper's frame: wires and boxes, found in the program.
 //!
 //! A wire is a bundle of qubits. The path index, the comparator, the colour and the flag have wires
-//! of their own; so has what each box computes *and another box reads*. All other qubits, with the
-//! ancillas that operations borrow, are the wire `work`.
+//! of their own. The values that a box computes *and another box reads* are one wire. All other
+//! qubits, with the ancillas that operations borrow, are the wire `work`.
 
 use super::{Inspection, Part, Stage};
 use crate::compile::{Role, StageName};
@@ -17,9 +17,9 @@ pub struct Wire {
     pub name: String,
     /// The bounce that the wire belongs to, 0 for the primary ray; none for a wire of no ray.
     pub depth: Option<u32>,
-    /// How many qubits the wire is a bundle of.
+    /// Number of qubits of the wire.
     pub qubits: u64,
-    /// Whether the wire holds something before the first box.
+    /// True if the wire holds a value before the first box.
     pub input: bool,
 }
 
@@ -32,9 +32,9 @@ pub struct FrameBox {
     pub stage: StageName,
     /// The part of the call.
     pub part: Part,
-    /// Whether the box is the inverse of another.
+    /// True if the box is the inverse of another.
     pub inverse: bool,
-    /// What the box costs in gates.
+    /// The cost of the box in gates.
     pub cost: Cost,
     /// The wires that it reads and does not change, from the top.
     pub reads: Vec<usize>,
@@ -44,9 +44,9 @@ pub struct FrameBox {
 
 /// The call as boxes on wires.
 ///
-/// The path index, the comparator, the colour and the flag have wires of their own; so has what
-/// each box computes and another box reads. All other qubits, with the ancillas that operations
-/// borrow, are the wire `work`.
+/// The path index, the comparator, the colour and the flag have wires of their own. The values that
+/// a box computes and another box reads are one wire. All other qubits, with the ancillas that
+/// operations borrow, are the wire `work`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// The wires from the top; the last is `work`.
@@ -55,12 +55,12 @@ pub struct Frame {
     pub boxes: Vec<FrameBox>,
 }
 
-/// Which wire a register is a part of.
+/// The wire that a register is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Bundle {
     Id,
     Comparator,
-    /// What a stage computes, by the stage's index.
+    /// Registers that a stage computes, by the stage's index.
     Of(usize),
     Colour,
     Flag,
@@ -112,7 +112,7 @@ impl Frame {
                 reads.extend(op.reads().into_iter().map(place));
                 writes.extend(op.fresh().into_iter().map(place));
             }
-            // A phase is flipped, nothing is computed.
+            // A phase flip computes no register: its box writes no wire.
             let wire = |bundle: &Bundle| order.iter().position(|known| known == bundle);
             FrameBox {
                 name: title(stage),
@@ -130,8 +130,8 @@ impl Frame {
         }
     }
 
-    /// Before which boxes a wire holds something: from the first that computes it to the last that
-    /// uncomputes it. All of them for an input.
+    /// The boxes before which a wire holds a value: those after the first box that computes it, up
+    /// to the last box that uncomputes it. For an input, all boxes and the end.
     pub fn held(&self, wire: usize) -> std::ops::Range<usize> {
         if self.wires[wire].input {
             return 0..self.boxes.len() + 1;
@@ -177,7 +177,7 @@ fn bundles(inspection: &Inspection, stages: &[Stage]) -> Vec<Bundle> {
     registers.iter().enumerate().map(bundle).collect()
 }
 
-/// How many qubits `work` has: the most in use beside those of the other wires.
+/// Number of qubits of `work`: the most in use besides those of the other wires.
 fn work(inspection: &Inspection, bundles: &[Bundle]) -> u64 {
     let instructions = inspection.whole.instructions.len();
     let mut change = vec![0_i64; instructions + 1];
@@ -197,7 +197,8 @@ fn work(inspection: &Inspection, bundles: &[Bundle]) -> u64 {
     most.unsigned_abs()
 }
 
-/// What leaves a stage: a ray leaves Generate Ray, the nearest hit leaves Find Intersection.
+/// The wire that leaves a stage: a ray leaves Generate Ray, the nearest hit leaves Find
+/// Intersection.
 fn wire_of(stage: &Stage) -> (String, Option<u32>) {
     let name = match stage.name {
         StageName::GenerateRay => "ray".to_owned(),
@@ -212,7 +213,7 @@ fn wire_of(stage: &Stage) -> (String, Option<u32>) {
     }
 }
 
-/// `find_intersection 0` as `Find Intersection 0`.
+/// The title of a stage's box: `Find Intersection 0` for `find_intersection 0`.
 fn title(stage: &Stage) -> String {
     if stage.name == StageName::Flip {
         return "Z".to_owned();

@@ -1,17 +1,17 @@
-//! Where each register is, and when: the register map.
+//! The register map: the qubits of each register over time.
 //!
-//! Registers are laid out contiguously in the order in which they are computed: each on the lowest
-//! qubits that are free side by side. Under `keep`, where nothing is returned before everything is,
-//! that places one above the other; under `scoped` the qubits of finished scopes are allocated
-//! again. A lowering to gates may scatter a register over single free qubits, and then needs no
-//! more of them than are in use; the map, whose registers stay whole, can be a little higher.
+//! Registers are laid out contiguously in the order in which they are computed, each on the lowest
+//! run of free qubits that is wide enough. Under `keep`, no register is freed before all are
+//! computed, so each lies above the one before. Under `scoped`, the qubits of finished scopes are
+//! allocated again. A lowering to gates may scatter a register over single free qubits, and then
+//! needs no more qubits than are in use. The map keeps registers whole, and can be a little higher.
 
 use qrt_circuit::{Program, RegisterId};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A register from its computation to its uncomputation. Under `scoped` it may have several: what
-/// a scope computes is computed again when the scope is undone.
+/// A register from its computation to its uncomputation. Under `scoped` a register may have several
+/// lifetimes: a scope's values are computed again when the scope is undone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lifetime {
     /// The register that is computed and uncomputed.
@@ -22,18 +22,18 @@ pub struct Lifetime {
     pub instructions: Range<usize>,
 }
 
-/// The lifetimes of a program's registers, laid out contiguously in the order in which they are
-/// computed, each on the lowest qubits that are free side by side.
+/// The lifetimes of a program's registers, laid out contiguously in the order of their computation.
+/// Each is on the lowest run of free qubits that is wide enough.
 ///
-/// Under `keep` that places one above the other. Under `scoped` the qubits of finished scopes are
-/// used again, so that registers of different times can have one offset; and as registers stay
-/// whole here, the layout can be a little higher than the qubits in use, which single qubits'
-/// placement reaches.
+/// Under `keep`, each register lies above the one before. Under `scoped`, the qubits of finished
+/// scopes are used again, so that registers of different times can have one offset. Registers stay
+/// whole here, so the layout can be a little higher than the number of qubits in use, which the
+/// placement of single qubits reaches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
     /// The lifetimes, in the order in which they begin.
     pub lifetimes: Vec<Lifetime>,
-    /// How many qubits the layout has.
+    /// Number of qubits of the layout.
     pub height: u32,
     /// The first qubit of each register when it is first computed; none for a register that the
     /// program does not compute.
@@ -57,7 +57,7 @@ impl Layout {
         for (at, instruction) in program.instructions.iter().enumerate() {
             let mut fresh = program.ops[instruction.op as usize].fresh();
             if instruction.inverse {
-                // As they came, from the top.
+                // Free them in the reverse order, from the top.
                 fresh.reverse();
             }
             for register in fresh {
@@ -80,7 +80,7 @@ impl Layout {
         self.offsets.get(register.index()).copied().flatten()
     }
 
-    /// How many registers the layout places.
+    /// Number of registers that the layout places.
     pub fn registers(&self) -> u64 {
         self.offsets.iter().flatten().count() as u64
     }
@@ -122,7 +122,7 @@ impl Free {
             }
             return start;
         }
-        // The last run may reach up to the top.
+        // If the last run reaches the top, the new run begins in it.
         let start = match self.runs.last_key_value() {
             Some((&start, &length)) if start + length == self.top => {
                 self.runs.remove(&start);
@@ -177,7 +177,7 @@ mod tests {
         );
     }
 
-    /// Registers of these widths, computed one after another and undone in the order of `undo`.
+    /// A program that computes registers of `widths` in turn, and undoes them in the order `undo`.
     fn program(widths: &[u32], undo: &[usize]) -> Program {
         let step = |op: usize, inverse| Instruction {
             op: op as u32,

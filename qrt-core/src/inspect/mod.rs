@@ -1,9 +1,10 @@
-//! What a scene's oracle costs, and where: the figures of `qrt inspect`, which `qrt_runtime::draw`
-//! draws.
+//! The cost of a scene's oracle and its parts: the figures of `qrt inspect`, which
+//! `qrt_runtime::draw` draws.
 //!
-//! All of it is read off one whole call of the oracle, `O_f` = compute, compare and flip, uncompute
-//! ([`Oracle::whole`]): its instructions, their costs, the blocks that they are charged to and the
-//! registers that they compute. Nothing here knows what a scene's circuit should look like.
+//! All figures are computed from one whole call of the oracle, `O_f` = compute, compare and flip,
+//! uncompute ([`Oracle::whole`]): its instructions, their costs, the blocks that the costs are
+//! charged to and the registers that the instructions compute. This module makes no assumption about
+//! the circuit of a scene.
 
 mod blocks;
 mod frame;
@@ -36,31 +37,30 @@ use std::ops::Range;
 /// The names of the channels, in their order.
 pub const CHANNELS: [&str; 3] = ["r", "g", "b"];
 
-/// One call of a channel's oracle, with what it costs.
+/// One call of a channel's oracle, with its cost.
 #[derive(Clone, Debug)]
 pub struct Inspection {
     /// Channel and class of pixels of the oracle.
     pub name: OracleName,
-    /// The pixel whose parameters are built in. Without one, every X gate counts that a pixel of the
-    /// class may need.
+    /// The pixel whose parameters are built in. Without a pixel, the costs count every X gate that a
+    /// pixel of the class may need.
     pub pixel: Option<OraclePixel>,
-    /// What is undone when.
+    /// The uncomputation strategy.
     pub strategy: Strategy,
     /// The oracle of that channel.
     pub oracle: Oracle,
     /// `O_f`: all its instructions.
     pub whole: Program,
-    /// What each instruction of the call costs in gates.
+    /// The cost of each instruction of the call in gates.
     pub costs: Vec<Cost>,
-    /// How many qubits are in use while each instruction of the call runs, its own ancillas
-    /// included.
+    /// Number of qubits in use while each instruction of the call runs, its own ancillas included.
     pub in_use: Vec<u32>,
-    /// How many qubits the call needs: the most that are in use at any time.
+    /// Number of qubits that the call needs: the maximum in use at any time.
     pub qubits: u32,
-    /// The Toffoli depth: Toffolis on the longest chain of gates of which each waits for the one
+    /// The Toffoli depth: Toffolis on the longest chain of gates in which each gate waits for the one
     /// before.
     pub toffoli_depth: u64,
-    /// Where each register is, and when.
+    /// The qubits and the lifetimes of each register.
     pub layout: Layout,
 }
 
@@ -76,7 +76,7 @@ impl Inspection {
         options: Options,
     ) -> Result<Self, OracleError> {
         let first = channel.unwrap_or(0);
-        // Found once for all channels.
+        // Determined once for all channels.
         let strategy = options.strategy(scene)?;
         let options = Options {
             strategy: Some(strategy),
@@ -118,8 +118,8 @@ impl Inspection {
         })
     }
 
-    /// Inspects the most expensive of the scene's oracles: of those of `channel`, or of all
-    /// channels; over all classes that the film's pixels have.
+    /// Inspects the most expensive oracle of `channel`, or of all channels. The film's pixels fix the
+    /// classes that are compared.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -127,7 +127,7 @@ impl Inspection {
         Self::most_expensive_of(scene, &oracle_costs(scene)?, channel)
     }
 
-    /// The same by the scene's [`oracle_costs`], or by some of them.
+    /// Inspects the most expensive oracle by `costs`, the scene's [`oracle_costs`] or some of them.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -154,7 +154,7 @@ impl Inspection {
     /// As [`Oracle::new`].
     ///
     /// # Panics
-    /// If the film has no such pixel.
+    /// If the pixel is outside the film.
     pub fn of_pixel(
         scene: &ValidScene,
         channel: Option<usize>,
@@ -200,7 +200,7 @@ impl Inspection {
         }
     }
 
-    /// The same without the pixels where the scene has one oracle for all of them.
+    /// Names the oracle like [`Inspection::which`], but without its pixels if it serves all of them.
     pub fn which_briefly(&self) -> String {
         match self.pixel {
             None if self.name.of_all_pixels => format!("channel {}", self.name.channel_name()),
@@ -218,7 +218,7 @@ impl Inspection {
         )
     }
 
-    /// What the whole call costs in gates.
+    /// The cost of the whole call in gates.
     pub fn total(&self) -> Cost {
         self.costs.iter().copied().sum()
     }
@@ -239,7 +239,7 @@ impl Inspection {
         u64::try_from(product).unwrap_or(u64::MAX)
     }
 
-    /// Where in [`Program::instructions`] a part stands.
+    /// The range of a part in [`Program::instructions`].
     pub fn instructions(&self, part: Part) -> Range<usize> {
         let compute = self.oracle.program.instructions.len();
         let whole = self.whole.instructions.len();
@@ -250,8 +250,7 @@ impl Inspection {
         }
     }
 
-    /// The most qubits in use during some of the instructions; those of the inputs if there are
-    /// none.
+    /// The most qubits in use during `instructions`; the qubits of the inputs if there are none.
     pub fn peak(&self, instructions: Range<usize>) -> u32 {
         let inputs = self.whole.inputs.iter();
         let inputs = inputs.map(|&input| self.whole.width(input)).sum();
@@ -259,8 +258,8 @@ impl Inspection {
         most.unwrap_or(inputs)
     }
 
-    /// Of the qubits in use when they are most: those of each of [`Role::ALL`], and the ancillas that
-    /// the operation borrows. They add up to [`Inspection::qubits`].
+    /// Qubits in use at the peak: those of each of [`Role::ALL`], and the ancillas that the operation
+    /// borrows. They add up to [`Inspection::qubits`].
     pub fn peak_by_role(&self) -> ([u32; Role::ALL.len()], u32) {
         let most = self.in_use.iter().copied().max().unwrap_or(0);
         let at = self.in_use.iter().position(|&n| n == most).unwrap_or(0);
@@ -278,10 +277,10 @@ impl Inspection {
         (roles, ancillas)
     }
 
-    /// How much each pass makes the call cheaper, one added after the other.
+    /// The cost of the call without passes, and with the passes added one after the other.
     ///
     /// # Errors
-    /// As [`Oracle::new`]; a pass can be what makes a scene's numbers fit.
+    /// As [`Oracle::new`]: without some pass a scene's numbers may not fit.
     pub fn passes(&self, scene: &ValidScene) -> Result<Vec<PassFigures>, OracleError> {
         pass_figures(scene, self)
     }

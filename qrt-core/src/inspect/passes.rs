@@ -1,4 +1,4 @@
-//! How much each pass makes a call of the oracle cheaper.
+//! The saving of each pass in a call of the oracle.
 
 use super::Inspection;
 use crate::compile::Passes;
@@ -11,16 +11,16 @@ use qrt_circuit::lower::{self, Cost};
 pub struct PassFigures {
     /// The name of the pass: `none`, `share`, `tabulate`, `needed`, `merge`, `multiples`.
     pub name: &'static str,
-    /// How many Toffolis the call has.
+    /// Number of Toffolis of the call.
     pub toffoli: u64,
-    /// How many operations the compute part has.
+    /// Number of operations of the compute part.
     pub ops: u64,
-    /// How many qubits the call needs.
+    /// Number of qubits that the call needs.
     pub qubits: u32,
 }
 
-/// The figures without any pass, and with one after the other added. The last are those of
-/// `inspection`, which has them all.
+/// The figures without any pass, and with the passes added one after the other. The last figures
+/// are those of `inspection`, which has all passes.
 ///
 /// # Errors
 /// As [`Oracle::new`].

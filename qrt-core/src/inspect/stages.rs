@@ -14,7 +14,7 @@ pub enum Part {
     Compute,
     /// Compares the colour with the comparator, flips the phase, and uncomputes the comparison.
     Flip,
-    /// Uncomputes what the first part computed.
+    /// Uncomputes the results of the compute part.
     Uncompute,
 }
 
@@ -43,21 +43,21 @@ pub struct Stage {
     pub name: StageName,
     /// The bounce that the stage belongs to, 0 for the primary ray; none for a stage of no ray.
     pub depth: Option<u32>,
-    /// Its block; none for what stands between blocks. What the frame does after other blocks, such
-    /// as ending a path, is little and counted with them.
+    /// The stage's block; none for instructions between blocks. The frame's few instructions after
+    /// other blocks, such as those that end a path, are counted with these blocks.
     pub block: Option<BlockId>,
-    /// Whether the stage is the inverse of another.
+    /// True if the stage is the inverse of another.
     pub inverse: bool,
-    /// The range of the call's instructions that the stage is.
+    /// The range of the call's instructions that belong to the stage.
     pub instructions: Range<usize>,
-    /// What the instructions cost in gates.
+    /// The cost of the instructions in gates.
     pub cost: Cost,
     /// The most qubits in use while the stage runs.
     pub qubits: u32,
 }
 
 impl fmt::Display for Stage {
-    /// `find_intersection 1`
+    /// Writes a name like `find_intersection 1`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.name.fmt(f)?;
         match self.depth {
@@ -68,8 +68,8 @@ impl fmt::Display for Stage {
 }
 
 impl Inspection {
-    /// The stages, in the order in which they run. Their instructions are all instructions of the
-    /// call, each once.
+    /// The stages, in the order in which they run. Each instruction of the call belongs to one
+    /// stage.
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages: Vec<Stage> = Vec::new();
         for (block, instructions) in self.runs() {
@@ -139,8 +139,8 @@ impl Inspection {
         }
     }
 
-    /// Runs of instructions of one block below the root in the compute part. What a scope copies
-    /// out of itself is charged to the block around it, but belongs to the run.
+    /// Runs of instructions of one block below the root in the compute part. The copies that a
+    /// scope leaves are charged to the block around it, but belong to the run.
     fn runs(&self) -> Vec<(Option<BlockId>, Range<usize>)> {
         let mut runs: Vec<(Option<BlockId>, Range<usize>)> = Vec::new();
         for at in self.instructions(Part::Compute) {
@@ -165,7 +165,7 @@ impl Inspection {
             .all(|instruction| matches!(self.whole.ops[instruction.op as usize], Op::Copy { .. }))
     }
 
-    /// The block below the root that `block` is, or is in.
+    /// The child of the root that is `block` or contains it; none for the root.
     fn below_root(&self, block: BlockId) -> Option<BlockId> {
         let mut at = block;
         loop {

@@ -4,7 +4,7 @@ use super::*;
 use crate::front::parse;
 use qrt_circuit::lower::depth;
 
-/// A lamp over a floor: two rays a path.
+/// A lamp over a floor, with two rays per path.
 const SCENE: &str = "
 name: lit-floor
 camera: { perspective: { eye: [0, 1, 2], target: [0, 0, 0], vfov: 45 } }
@@ -99,7 +99,7 @@ fn wires_are_computed_once_and_returned() {
             let writers: Vec<bool> = writers.map(|b| b.inverse).collect();
             let expected: &[bool] = if wire.input { &[] } else { &[false, true] };
             assert_eq!(writers, expected, "{}", wire.name);
-            // Nobody reads what is not there.
+            // No box reads a wire that holds no value.
             let held = frame.held(n);
             for (place, item) in frame.boxes.iter().enumerate() {
                 let reads = item.reads.contains(&n);
@@ -111,7 +111,7 @@ fn wires_are_computed_once_and_returned() {
                 );
             }
         }
-        // What the boxes need of each other is what the paper draws.
+        // The paper draws the values that boxes read from other boxes.
         let read = |name: &str| {
             let item = frame.boxes.iter().find(|b| b.name == name).unwrap();
             item.reads

@@ -1,20 +1,20 @@
-//! How strongly a lamp may light a surface, by interval arithmetic: branch and bound over pairs of
-//! a part of the surface and a part of the lamp.
+//! Upper bounds of how strongly a lamp lights a surface, by interval arithmetic: branch and bound
+//! over pairs of a part of the surface and a part of the lamp.
 
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Parts are cut until the bound is this near to a value that is taken.
+/// Ratio of the bound to an attained value at which parts are no longer cut.
 const TIGHT: f64 = 1.05;
 
-/// Pairs of parts that are looked at, at most.
+/// Maximum number of pairs of parts that are examined.
 const MOST_PAIRS: usize = 16_000;
 
-/// Where parts so small, against what they are parts of, still touch, there is no bound.
+/// Size of touching parts, relative to the whole, below which there is no bound.
 const TOUCHING: f64 = 1.0 / 64.0;
 
-/// What a lamp does to a surface at most.
+/// Upper bounds of a lamp's effect on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
     /// An upper bound of `q / r^4`: infinite if none can be shown.
@@ -24,15 +24,15 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// The bound of whatever nothing is known about: infinity.
+    /// The bound if nothing is known: infinity.
     pub const UNBOUNDED: Self = Self {
         form: f64::INFINITY,
         nearness: f64::INFINITY,
     };
 }
 
-/// A bound, over all points `x` of the polygons `surface`, on either side of which light may
-/// arrive, and all points `y` of the polygon `lamp`, whose front emits.
+/// Returns bounds over all points `x` of the polygons `surface` and all points `y` of the polygon
+/// `lamp`. Light may arrive on either side of the surface; the lamp emits on its front.
 ///
 /// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
 pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3]) -> Reached {
@@ -48,7 +48,8 @@ pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3])
     }
 }
 
-/// The same bound of `q / r^4` for one polygon, looser: of so many pairs of parts.
+/// Returns the bound of `q / r^4` for one polygon, but looser: it examines at most `most_pairs`
+/// pairs of parts.
 pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
     let of = |face: Triangle| Triangle::of(lamp).map(move |lamp| (face, lamp));
     supremum(Triangle::of(face).flat_map(of), form, most_pairs)
@@ -79,7 +80,7 @@ impl Triangle {
             corners,
             normal: normal.unwrap_or_else(|| (b - a).cross(c - a).normalize_or_zero()),
             centre,
-            // Above what rounding takes from it.
+            // Rounded up, so that it stays an upper bound.
             radius: far(a).max(far(b)).max(far(c)) * (1.0 + 1e-12),
             low: a.min(b).min(c),
             high: a.max(b).max(c),
@@ -98,7 +99,7 @@ impl Triangle {
         ]
     }
 
-    /// The least and the greatest rise of a corner of `other` over this part's plane.
+    /// Returns the least and the greatest height of a corner of `other` over this part's plane.
     fn rises(&self, other: &Self) -> [f64; 2] {
         let along = |corner: DVec3| self.normal.dot(corner - self.centre);
         let [a, b, c] = other.corners.map(along);
@@ -106,19 +107,19 @@ impl Triangle {
     }
 }
 
-/// Whether light goes from a part of the lamp to a part of the surface, and how: the greatest rises
-/// over both planes, and the least distance.
+/// Returns the greatest heights over both planes and the least distance, if light goes from a part
+/// of the lamp to a part of the surface.
 fn seen(face: &Triangle, lamp: &Triangle) -> Option<[f64; 3]> {
     let size = face.radius + lamp.radius;
     let slack = 1e-12 * size;
     let [below, above] = face.rises(lamp);
     let [behind, before] = lamp.rises(face);
     let rise = above.max(-below);
-    // Planes that are one up to rounding light nothing of each other.
+    // Parts whose planes are equal up to rounding do not light each other.
     if rise <= slack || before <= slack {
         return None;
     }
-    // Apart by their spheres, by their boxes, and each by the other's plane.
+    // Lower bounds of the distance: by the spheres, by the boxes, and by each part's plane.
     let apart = (face.centre - lamp.centre).length() - size;
     let by_planes = below.max(-above).max(behind);
     let between = (face.low - lamp.high).max(lamp.low - face.high);
@@ -174,7 +175,7 @@ impl Ord for Pair {
     }
 }
 
-/// An upper bound over all pairs, which `bound` gives for each.
+/// Returns an upper bound over all pairs; `bound` gives that of one pair.
 fn supremum(
     pairs: impl Iterator<Item = (Triangle, Triangle)>,
     bound: fn(&Triangle, &Triangle) -> f64,

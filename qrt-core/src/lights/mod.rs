@@ -16,7 +16,7 @@ pub use bound::{Reached, strongest, strongest_form};
 
 use glam::DVec3;
 
-/// How far from a parallelogram a quad may be, over its size, to be one.
+/// Maximum deviation of a parallelogram's corners, relative to its size.
 const PARALLEL: f64 = 1e-9;
 
 /// A polygon that emits: a parallelogram, or a triangle, which is half of one.
@@ -26,7 +26,7 @@ pub struct Lamp {
     pub corner: DVec3,
     /// The point of `(u, v)` is `corner + u edges[0] + v edges[1]`.
     pub edges: [DVec3; 2],
-    /// Whether points with `u + v > 1` are folded back to `(1 - u, 1 - v)`.
+    /// True if points with `u + v > 1` are folded back to `(1 - u, 1 - v)`.
     pub triangle: bool,
     /// The unit normal of the side that emits.
     pub normal: DVec3,
@@ -35,8 +35,8 @@ pub struct Lamp {
 }
 
 impl Lamp {
-    /// The lamp of these corners, of which the front emits; none if they are no parallelogram and
-    /// no triangle.
+    /// Creates the lamp of `corners`, which emits on its front; `None` if they form neither a
+    /// parallelogram nor a triangle.
     pub fn new(corners: &[DVec3]) -> Option<Self> {
         let (a, b, last) = match *corners {
             [a, b, c] => (a, b, c),
@@ -57,14 +57,14 @@ impl Lamp {
     }
 }
 
-/// Whether a planar quad can be sampled by its edges alone.
+/// True if a planar quad is a parallelogram, which can be sampled by its edges alone.
 pub fn is_parallelogram([a, b, c, d]: [DVec3; 4]) -> bool {
     let size = (c - a).length().max((d - b).length());
     ((a + c) - (b + d)).length() <= PARALLEL * size
 }
 
-/// Gives each lamp columns of a table of `2^bits` in proportion to its power, at least one; none
-/// if there are more lamps than columns.
+/// Gives each lamp columns of a table of `2^bits` in proportion to its power, at least one. `None`
+/// if there are no lamps, or more lamps than columns.
 ///
 /// ```
 /// assert_eq!(qrt_core::lights::columns(&[3.0, 1.0, 1e-9], 3), Some(vec![5, 2, 1]));
@@ -76,8 +76,8 @@ pub fn columns(powers: &[f64], bits: u32) -> Option<Vec<u32>> {
         return None;
     }
     let total: f64 = powers.iter().sum();
-    // One for each, and the rest in proportion; what rounding down leaves goes to those that it
-    // took most from.
+    // Round each share down, but to at least one column. Then give columns to the lamps that
+    // rounding took most from, or take some from those that it gave most to.
     let exact = |power: f64| f64::from(all) * power / total;
     let mut given: Vec<u32> = Vec::with_capacity(powers.len());
     for &power in powers {

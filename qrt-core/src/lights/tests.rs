@@ -1,6 +1,6 @@
 use super::*;
 
-/// Of a surface that the lamp does not light.
+/// The bounds of a surface that the lamp does not light.
 const NOTHING: Reached = Reached {
     form: 0.0,
     nearness: 0.0,
@@ -44,7 +44,7 @@ fn what_touches_a_lamp_has_no_bound_and_what_lies_in_its_plane_is_not_lit() {
     assert_eq!(reached, NOTHING);
 }
 
-/// Against points of a grid on both.
+/// Compares with points of a grid on both.
 #[test]
 fn no_pair_of_points_exceeds_the_bound() {
     let lamp = [

@@ -6,12 +6,12 @@ use qrt_circuit::{Gate, Operand, Program};
 use std::io::Write;
 use std::ops::Deref;
 
-/// A scene's program with a pixel and a seed built in: a [`Program`] without classical parameters,
-/// from a path index to the path's colours, and what is known of its registers.
+/// A scene's program with a pixel and a seed built in. It is a [`Program`] without classical
+/// parameters, from a path index to the path's colours, with the data of its registers.
 ///
-/// It is the program that it derefs to: [`Program::inverse`], [`Program::circuit`], its operations
-/// and instructions are at hand. `machines::run` of the runtime runs it: `run::paths_on_fixed` and
-/// its like.
+/// It derefs to the program: [`Program::inverse`], [`Program::circuit`], the operations and the
+/// instructions are available. `machines::run` of the runtime runs it, for example with
+/// `run::paths_on_fixed`.
 ///
 /// ```
 /// use qrt_core::front::parse;
@@ -68,7 +68,7 @@ impl Oracle {
     pub fn program_at(&self, seed: u64, pixel: [u32; 2]) -> BoundProgram {
         let program = match self.program.bound(&self.words(seed, pixel)) {
             Ok(program) => program,
-            // The parameters are the program's own.
+            // Unreachable: the parameters are the program's own.
             Err(error) => unreachable!("{error}"),
         };
         let oracle = Self {
@@ -92,8 +92,8 @@ impl Deref for BoundProgram {
 }
 
 impl BoundProgram {
-    /// The oracle in that pixel: as the scene's, of which it is, with its parameters built in. Machines
-    /// take it as they take any.
+    /// The oracle in that pixel: the scene's oracle with the pixel's parameters built in. Machines take
+    /// it as they take any oracle.
     pub fn oracle(&self) -> &Oracle {
         &self.oracle
     }
@@ -103,7 +103,7 @@ impl BoundProgram {
         self.pixel
     }
 
-    /// The seed of its shifts.
+    /// The seed of the shifts of its paths.
     pub fn seed(&self) -> u64 {
         self.seed
     }
@@ -119,7 +119,7 @@ impl BoundProgram {
         self.oracle.whole(channel)
     }
 
-    /// By channel: how many of a path's comparators are good, read from the contents of all registers
+    /// Number of a path's good comparators by channel. `registers` are the contents of all registers
     /// after the program.
     pub fn good(&self, registers: &[u64]) -> Vec<u64> {
         let channels = self.oracle.channels.iter();
@@ -130,7 +130,7 @@ impl BoundProgram {
         counts.map(|count| self.oracle.good(count)).collect()
     }
 
-    /// Hands over the program's gates one by one, without holding them all.
+    /// Calls `each` for the program's gates one by one, without storing them all.
     pub fn each_gate(&self, mut each: impl FnMut(Gate)) {
         qrt_circuit::lower::each_instruction(self, |gates, _| {
             for &gate in gates {
@@ -139,7 +139,7 @@ impl BoundProgram {
         });
     }
 
-    /// Writes the program as OpenQASM, with what it is under the header: [`write_program`].
+    /// Writes the program as OpenQASM, with its pixel and seed below the header: [`write_program`].
     ///
     /// # Errors
     /// An error of `out`.

@@ -1,4 +1,4 @@
-//! What a scene allows its circuit, and what is wrong when there is no circuit.
+//! The budget of a scene's circuit, and the problems of a scene that has no circuit.
 
 use super::{MOST_FACES, Oracle, OracleCost, OracleError};
 use crate::compile::{self, BuildError};
@@ -10,15 +10,15 @@ use qrt_circuit::lower::{self, Figures};
 /// Costs of one call of an oracle: compute, compare and flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CallCost {
-    /// How many qubits a call needs: the most in use at any time.
+    /// Number of qubits that a call needs: the maximum in use at any time.
     pub qubits: u64,
-    /// How many Toffoli gates a call has.
+    /// Number of Toffoli gates of a call.
     pub toffoli: u64,
 }
 
 impl CallCost {
-    /// The most qubits and the most Toffolis of a call of any of these oracles, which may be two
-    /// oracles; 0 of no oracles.
+    /// The most qubits and the most Toffolis of a call of any oracle in `costs`. The two may be of
+    /// different oracles. Both are 0 if there are none.
     pub fn greatest(costs: &[OracleCost]) -> Self {
         let calls = || costs.iter().map(|cost| cost.call);
         Self {
@@ -28,14 +28,14 @@ impl CallCost {
     }
 }
 
-/// The cost of a call of the most expensive of these oracles, each of which is of one channel.
+/// The cost of a call of the most expensive oracle in `channels`, each of which is of one channel.
 pub fn call_cost(channels: &[Oracle]) -> CallCost {
     let known = &mut compile::Known::default();
     let priced = channels.iter().map(|oracle| {
         let figures = figures(oracle, known);
         (toffoli(oracle, &figures), oracle, figures)
     });
-    // The first of those that take as many.
+    // The first of equals.
     let dearest = priced.reduce(|most, next| if most.0 < next.0 { next } else { most });
     let none = CallCost {
         qubits: 0,
@@ -44,8 +44,7 @@ pub fn call_cost(channels: &[Oracle]) -> CallCost {
     dearest.map_or(none, |(_, oracle, figures)| cost_by(oracle, &figures))
 }
 
-/// The figures of the operations of [`Oracle::flip`] of channel number 0 of an oracle, the oracle's own
-/// first.
+/// The figures of an oracle's operations, followed by those of [`Oracle::flip`] of channel number 0.
 pub(super) fn figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<Figures> {
     let program = &oracle.program;
     let mut figures = known.figures(program.ops.iter(), &program.registers);
@@ -56,7 +55,7 @@ pub(super) fn figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<Figure
     figures
 }
 
-/// What a call costs, by the figures of its operations.
+/// The cost of a call, by the figures of its operations.
 pub(super) fn cost_by(oracle: &Oracle, figures: &[Figures]) -> CallCost {
     let qubits = lower::most_qubits_by(&oracle.upto_flip(), |op| figures[op].borrowed);
     CallCost {
@@ -78,9 +77,9 @@ fn toffoli(oracle: &Oracle, figures: &[Figures]) -> u64 {
     2 * once + steps.sum::<u64>()
 }
 
-/// Reports the limits of the scene's `budget` that calls of these oracles exceed, each with what could
-/// be done about it: those of [`oracle_costs`](super::oracle_costs), or those of them that are run.
-/// Each limit holds for every oracle. [`crate::front::Loaded::report`] shows the problems in the scene.
+/// Reports the limits of the scene's `budget` that `costs` exceed, each with advice. `costs` are those
+/// of [`oracle_costs`](super::oracle_costs), or of the oracles that are run. Each limit holds for every
+/// oracle. [`crate::front::Loaded::report`] shows the problems in the scene.
 ///
 /// # Errors
 /// At least one limit is exceeded.
@@ -117,7 +116,7 @@ pub fn check_budget(scene: &ValidScene, costs: &[OracleCost]) -> Result<(), Vec<
 }
 
 impl OracleError {
-    /// This error as a problem of the scene, where [`crate::front::Loaded::report`] shows it.
+    /// Converts this error to a problem of the scene, for [`crate::front::Loaded::report`].
     pub fn problem(&self) -> Problem {
         let root = Path::root();
         match self {
@@ -180,7 +179,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
         }
     }
 
-    /// The one with the most Toffolis has not the most qubits.
+    /// The oracle with the most Toffolis does not have the most qubits.
     const SPENT: [OracleCost; 2] = [cost(0, 900, 12_345), cost(1, 1000, 12_000)];
 
     #[test]
@@ -240,7 +239,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
         }
     }
 
-    /// A tilted floor of one material under a lamp, in 4 lines before the material's.
+    /// A tilted floor of one material under a lamp. The material is on line 5.
     fn tilted(material: &str) -> Loaded {
         let text = format!(
             "\
@@ -319,7 +318,7 @@ sampling:
         }
     }
 
-    /// The value and its material are named, at the value, and what the advice says helps.
+    /// The error names the value and its material, at the value, and its advice helps.
     #[test]
     fn a_value_that_takes_too_wide_a_number_is_named() {
         let bsdf = |part: &str| {

@@ -1,4 +1,4 @@
-//! Oracles as straight-line code: what `qrt!` generates, and how it is used.
+//! Oracles as straight-line code: the code that `qrt!` generates, and its use.
 
 use super::{Channel, Oracle};
 use crate::compile::{NamedPlace, PixelWord};
@@ -15,10 +15,10 @@ use std::marker::PhantomData;
 
 /// An oracle that was compiled together with the program that uses it.
 ///
-/// The code is there once, generic over the [`Machine`] that runs it: a [`Recorder`] makes the
-/// program of it again, and a machine of lanes computes with it.
+/// The code exists once, generic over the [`Machine`] that runs it: a [`Recorder`] turns it into the program
+/// again, and a machine of lanes computes with it.
 pub trait CompiledOracle: Sized + 'static {
-    /// What of the oracle is not in the code: its registers, blocks and channels.
+    /// The parts of the oracle that are not in the code: its registers, blocks and channels.
     const OUTLINE: &'static Outline;
 
     /// The scene that the oracle was compiled from.
@@ -26,7 +26,7 @@ pub trait CompiledOracle: Sized + 'static {
 
     /// Computes a path's registers from its index, lets `apply` read them, and uncomputes them.
     ///
-    /// Computed registers exist in `apply` alone: they can neither be kept nor be forgotten.
+    /// Computed registers exist only within `apply`: a caller can neither keep nor forget them.
     fn within<M: Machine, T>(
         machine: &mut M,
         id: &M::Register,
@@ -36,7 +36,7 @@ pub trait CompiledOracle: Sized + 'static {
     /// The paths of a pixel.
     ///
     /// # Errors
-    /// A sequence that cannot be made; a checked scene's can.
+    /// The sample sequence cannot be constructed; a checked scene's can.
     fn points() -> Result<PathPoints, SamplingError> {
         PathPoints::new(&Self::scene().scene().sampling)
     }
@@ -53,7 +53,7 @@ pub trait CompiledOracle: Sized + 'static {
     /// The oracle of all three channels, without compiling the scene again.
     ///
     /// # Errors
-    /// A sequence that cannot be made; a checked scene's can.
+    /// The sample sequence cannot be constructed; a checked scene's can.
     fn oracle() -> Result<Oracle, SamplingError> {
         let outline = Self::OUTLINE;
         let scene = Self::scene().scene();
@@ -85,19 +85,19 @@ pub struct BlockDeclaration {
     pub tag: Tag,
 }
 
-/// What is known of a compiled oracle beside its code.
+/// The data of a compiled oracle besides its code.
 #[derive(Debug)]
 pub struct Outline {
     /// All registers of the program, in its order.
     pub registers: &'static [Declaration],
     /// All blocks of the program, in its order.
     pub blocks: &'static [BlockDeclaration],
-    /// The first target of each operation, in the order of [`Program::ops`]; empty where that is
-    /// the order in which they run first.
+    /// The first target of each operation, in the order of [`Program::ops`]; empty if the operations first
+    /// run in that order.
     pub order: &'static [RegisterId],
     /// All classical parameters of the program, in its order.
     pub parameters: &'static [PixelWord],
-    /// How operations that have garbage are lowered.
+    /// The style in which operations with garbage are lowered.
     pub style: Style,
     /// The channels that the program computes.
     pub channels: &'static [Channel],
@@ -107,7 +107,7 @@ pub struct Outline {
     pub comparator: RegisterId,
     /// The register of the outcome of the comparison, whose phase is flipped.
     pub flag: RegisterId,
-    /// How many fraction bits every number has.
+    /// Number of fraction bits of every number.
     pub fraction: u32,
     /// As [`Oracle::sharing`].
     pub sharing: [u64; 2],
@@ -116,7 +116,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// The outline of a scene that has none, because of its errors.
+    /// An empty outline, for a scene that has none because of its errors.
     pub const NONE: Self = Self {
         registers: &[],
         blocks: &[],
@@ -132,7 +132,7 @@ impl Outline {
         places: &[],
     };
 
-    /// A recorder that knows the registers.
+    /// Creates a recorder with the program's registers, blocks and parameters.
     pub fn recorder(&self) -> Recorder {
         let block = |block: &BlockDeclaration| Block {
             parent: block.parent,
@@ -144,7 +144,7 @@ impl Outline {
         Recorder::of(self.registers, blocks, parameters, self.style)
     }
 
-    /// A recorded program with its operations in their order.
+    /// Sorts the operations of a recorded program into the order of the outline.
     pub fn ordered(&self, mut program: Program) -> Program {
         let places: HashMap<RegisterId, usize> = self
             .order
@@ -202,7 +202,7 @@ impl<S, T> Clone for Field<S, T> {
 impl<S, T> Copy for Field<S, T> {}
 
 impl<S: CompiledOracle, T: Format> Field<S, T> {
-    /// What `word` reads, for generated code. `place` is its place in [`Outline::places`].
+    /// Creates the field that reads `word`, for generated code. `place` is its place in [`Outline::places`].
     #[doc(hidden)]
     pub const fn new(place: usize, word: Word) -> Self {
         Self {
@@ -222,13 +222,13 @@ impl<S: CompiledOracle, T: Format> Field<S, T> {
         }
     }
 
-    /// The field with what is not in the register: `offset[0] + offset[1] column + offset[2] row`.
+    /// The field plus the part outside the register: `offset[0] + offset[1] column + offset[2] row`.
     pub const fn plus(self, offset: [f64; 3]) -> Self {
         Self { offset, ..self }
     }
 
-    /// The bits of the register that are the number. A sign and what is the same on all paths of a
-    /// pixel are not among them: [`Field::value`] knows them.
+    /// The bits of the register that hold the number. They contain neither its sign nor the part that is the
+    /// same on all paths of a pixel: [`Field::value`] includes both.
     pub fn word(&self) -> Word {
         self.word
     }
@@ -275,7 +275,7 @@ impl<S, X, Y, Z> fmt::Debug for Vector<S, X, Y, Z> {
     }
 }
 
-/// A scene that is `S`: a field belongs to the paths of its own scene alone.
+/// The scene `S` itself: a field belongs to the paths of its own scene alone.
 #[diagnostic::on_unimplemented(
     message = "a field of `{Self}` is not on the paths of `{S}`",
     label = "of another scene",
@@ -293,7 +293,7 @@ pub struct Computed<'a, S, R> {
 }
 
 impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
-    /// The registers of [`Outline::places`], and the count and the colour of each channel.
+    /// Creates it from the registers of [`Outline::places`], and the count and the colour of each channel.
     #[inline(always)]
     pub fn new(fields: &'a [&'a R], channels: [[Operand<&'a R>; 2]; 3]) -> Self {
         Self {
@@ -309,9 +309,10 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
         field.word.of(|_| self.fields[field.place])
     }
 
-    /// Hands over a field as a register of its format, such as reversible functions take: a copy of its
-    /// bits, which is undone when `apply` returns. What the bits of a number stand for, its sign and what is
-    /// the same on all paths of a pixel, [`Field::value`] knows; a truth is handed over as it is.
+    /// Calls `apply` with a field as a register of its format, for reversible functions. The register is a
+    /// copy of the field's bits, and is undone when `apply` returns. The bits contain neither the number's
+    /// sign nor the part that is the same on all paths of a pixel: [`Field::value`] includes both. A truth
+    /// value is complete.
     #[inline(always)]
     pub fn with<M, O, T, A>(
         &self,
@@ -336,8 +337,8 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
         applied
     }
 
-    /// How many of the comparator's thresholds the colour of each channel exceeds, before it is cut
-    /// to their number.
+    /// Number of the comparator's thresholds that the colour of each channel exceeds. It is not clamped to
+    /// the number of thresholds.
     #[inline(always)]
     pub fn counts(&self) -> [Operand<&'a R>; 3] {
         [0, 1, 2].map(|channel| copied(&self.channels[channel][0]))
@@ -350,7 +351,7 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
     }
 }
 
-/// `derive(Copy)` would ask for `R: Copy`; references are without that.
+/// Copies an operand. `derive(Copy)` would require `R: Copy`; references are `Copy` without that.
 #[inline(always)]
 fn copied<'a, R>(operand: &Operand<&'a R>) -> Operand<&'a R> {
     match operand {

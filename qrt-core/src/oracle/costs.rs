@@ -1,12 +1,12 @@
-//! The oracles of a scene, by name, and what one call of each costs.
+//! The oracles of a scene, by name, and the cost of one call of each.
 //!
 //! A scene has an oracle for each channel and each class of pixels ([`PixelClass`]): the classes
 //! differ in their colour scale, the channels in their albedos. [`oracle_costs`] is the only list of
 //! their costs: commands, budgets and plans all read it, or [`crate::inspect::Inspection`] of one of
 //! its entries.
 //!
-//! A call is compute, compare, flip of the phase, uncompute ([`Oracle::whole`]). What counting puts
-//! around it (the reflection, the phase register) is no part of it.
+//! A call is compute, compare, flip of the phase, uncompute ([`Oracle::whole`]). It does not include
+//! the parts that counting adds (the reflection, the phase register).
 
 use super::recording::{CHANNELS, PrimaryHit, Recording};
 use super::{CallCost, Options, Oracle, OracleError, budget};
@@ -70,7 +70,7 @@ impl fmt::Display for OracleName {
     }
 }
 
-/// One of a scene's oracles, and what a call of it costs.
+/// One of a scene's oracles, and the cost of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleCost {
     /// Channel and class of pixels.
@@ -80,14 +80,15 @@ pub struct OracleCost {
 }
 
 impl OracleCost {
-    /// The cost of a call of `oracle`, which has that name, by what is known of operations.
+    /// The cost of a call of `oracle`, which has that `name`. `known` caches the figures of
+    /// operations.
     pub(super) fn of(name: OracleName, oracle: &Oracle, known: &mut compile::Known) -> Self {
         let figures = budget::figures(oracle, known);
         let call = budget::cost_by(oracle, &figures);
         Self { name, call }
     }
 
-    /// The one of two with more Toffolis; the first of equals.
+    /// The one of two with more Toffolis; `self` if they are equal.
     #[must_use]
     pub fn dearer(self, other: Self) -> Self {
         if self.call.toffoli < other.call.toffoli {
@@ -97,13 +98,13 @@ impl OracleCost {
         }
     }
 
-    /// The oracle with the most Toffolis; the first of equals. None of no oracles.
+    /// The oracle with the most Toffolis; the first of equals. None if there are no oracles.
     pub fn most_expensive(costs: impl IntoIterator<Item = Self>) -> Option<Self> {
         costs.into_iter().reduce(Self::dearer)
     }
 }
 
-/// The names of a scene's oracles: of each class that its pixels have, each channel.
+/// The names of a scene's oracles: each channel of each class that its pixels have.
 pub fn oracle_names(scene: &ValidScene) -> Vec<OracleName> {
     let classes = PixelClasses::new(scene);
     let present = classes.present();
@@ -149,13 +150,13 @@ pub fn oracle_names(scene: &ValidScene) -> Vec<OracleName> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn oracle_costs(scene: &ValidScene) -> Result<Vec<OracleCost>, OracleError> {
-    // Found once for all of them.
+    // Determined once for all oracles.
     let strategy = Options::default().strategy(scene)?;
     oracle_costs_under(scene, strategy)
 }
 
-/// Those of [`oracle_costs`] for pixels of `class`, which is the only one that is compiled; none if no
-/// pixel is of it.
+/// The costs of [`oracle_costs`] for pixels of `class`. Only that class is compiled. None if no pixel
+/// is of it.
 ///
 /// # Errors
 /// As [`oracle_costs`].
@@ -168,8 +169,7 @@ pub fn oracle_costs_of_class(
     costs_of(scene, &names, Options::default().strategy(scene)?)
 }
 
-/// The costs of [`oracle_costs`], where those of some classes are `known`: only the others are
-/// compiled.
+/// The costs of [`oracle_costs`]. Only the classes whose costs are not in `known` are compiled.
 ///
 /// # Errors
 /// As [`oracle_costs`].
@@ -203,7 +203,7 @@ pub fn oracle_costs_under(
     costs_of(scene, &oracle_names(scene), strategy)
 }
 
-/// The costs of a call of each of these oracles, which are sorted by class.
+/// The costs of a call of each of the oracles `names`, which are sorted by class.
 fn costs_of(
     scene: &ValidScene,
     names: &[OracleName],

@@ -1,4 +1,4 @@
-//! What a scene's circuit costs under each strategy: qubits against gates.
+//! The cost of a scene's circuit under each strategy: qubits against gates.
 
 use super::recording::{PrimaryHit, Recording};
 use super::{CallCost, Options, Oracle, OracleError, OracleName, budget, costs};
@@ -10,17 +10,18 @@ use qrt_circuit::lower::{self, Figures};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A way to lay out the circuit of a scene's channel, and what one call of it costs.
+/// A way to lay out the circuit of a scene's channel, and the cost of one call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// What is undone when.
+    /// The uncomputation strategy.
     pub strategy: Strategy,
-    /// Qubits and Toffolis.
+    /// Qubits and Toffolis of a call.
     pub cost: CallCost,
-    /// How many ANDs there are if measurements undo them.
+    /// Number of ANDs if measurements undo them.
     pub and_measured: u64,
-    /// An estimate: how many of those would be left on the same qubits if what is undone early were
-    /// measured, and left ghosts until it is computed again: see [`lower::with_ghosts`].
+    /// An estimate of the number of those ANDs that remain on the same qubits with ghosts: values that are
+    /// undone early are measured, and leave ghosts until they are computed again. See
+    /// [`lower::with_ghosts`].
     pub and_with_ghosts: u64,
 }
 
@@ -38,7 +39,7 @@ impl Layout {
         Layouts::new(scene, channel).under(strategy)
     }
 
-    /// The layout of the most expensive of the scene's oracles, and which oracle that is.
+    /// The name of the most expensive of the scene's oracles, and its layout.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -51,8 +52,8 @@ impl Layout {
         Ok((name, layout))
     }
 
-    /// Those that no other beats in qubits without more Toffolis, or in Toffolis without more
-    /// qubits; the one with the fewest Toffolis first.
+    /// The Pareto front of `layouts`, the one with the fewest Toffolis first. No other layout beats one of
+    /// these in qubits without more Toffolis, or in Toffolis without more qubits.
     pub fn front(mut layouts: Vec<Self>) -> Vec<Self> {
         layouts.sort_by_key(|layout| (layout.cost.toffoli, layout.cost.qubits));
         let mut least = u64::MAX;
@@ -75,12 +76,12 @@ pub struct Layouts<'a> {
 }
 
 impl<'a> Layouts<'a> {
-    /// Those of channel 0 red, 1 green or 2 blue, for pixels of any class.
+    /// The layouts of channel 0 red, 1 green or 2 blue, for pixels of any class.
     pub fn new(scene: &'a ValidScene, channel: usize) -> Self {
         Self::of_class(scene, channel, PixelClass::default())
     }
 
-    /// Those of channel 0 red, 1 green or 2 blue, for pixels of `class`.
+    /// The layouts of channel 0 red, 1 green or 2 blue, for pixels of `class`.
     pub fn of_class(scene: &'a ValidScene, channel: usize, class: PixelClass) -> Self {
         Self {
             scene,
@@ -90,7 +91,7 @@ impl<'a> Layouts<'a> {
         }
     }
 
-    /// The one under `strategy`: as [`Layout::new`].
+    /// The layout under `strategy`: as [`Layout::new`].
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -141,7 +142,7 @@ impl<'a> Layouts<'a> {
         Ok(budget::cost_by(&oracle, &figures))
     }
 
-    /// What each of these costs, found on all cores.
+    /// The cost of each strategy in `of`, computed on all cores.
     fn costs(&self, of: &[Strategy]) -> Result<Vec<(CallCost, Strategy)>, OracleError> {
         let costs = Cores::All.map(of, 1, |&strategy| self.cost(strategy));
         let costs = costs.into_iter().zip(of);
@@ -150,7 +151,7 @@ impl<'a> Layouts<'a> {
             .collect()
     }
 
-    /// The strategy with the fewest Toffolis on at most so many qubits, of [`Strategy::all`]; the one with
+    /// The strategy of [`Strategy::all`] with the fewest Toffolis on at most `qubits` qubits; the one with
     /// the fewest qubits if all have more.
     ///
     /// # Errors
@@ -160,7 +161,7 @@ impl<'a> Layouts<'a> {
         let without_garbage: Vec<Strategy> = Strategy::all_without_garbage().collect();
         let anew: Vec<Strategy> = without_garbage.iter().map(|s| s.recomputing()).collect();
         if let Some((cost, strategy)) = kept {
-            // Of those that compute anew, the one without scopes has few Toffolis, if not the fewest.
+            // Of the strategies that recompute, the one without scopes has few Toffolis, if not the fewest.
             let few = self.cost(anew[0])?.toffoli;
             if cost.toffoli <= few - few / 3 {
                 return Ok(strategy);
@@ -175,7 +176,7 @@ impl<'a> Layouts<'a> {
         };
         let mut all = self.costs(&anew)?;
         let best = all.iter().chain(&kept).map(rank).min();
-        // Running more again frees more, and has no fewer Toffolis.
+        // Running inputs again frees more qubits, and saves no Toffolis.
         let may_be_better = |one: &(CallCost, Strategy)| {
             let fits = one.0.qubits <= qubits;
             !fits && best.is_none_or(|best| best.0 == 1 || one.0.toffoli < best.1)
@@ -188,17 +189,17 @@ impl<'a> Layouts<'a> {
         Ok(best.map_or(Strategy::SCOPED, |(_, strategy)| strategy))
     }
 
-    /// The same of those that compute nothing anew; none if none fits.
+    /// The cheapest strategy that recomputes nothing, with its cost; none if none fits.
     ///
-    /// [`Strategy::CHOICES`] are decided one after another, for all that may still be the cheapest: of those
-    /// that share what is decided, none has fewer Toffolis than the one that takes no more, nor many fewer
-    /// qubits than the one that takes all others.
+    /// [`Strategy::CHOICES`] are decided one after another. Partial decisions that cannot lead to the
+    /// cheapest are dropped: of the strategies with the same decisions, none has fewer Toffolis than the one
+    /// that takes no other choice, or many fewer qubits than the one that takes all others.
     fn cheapest_kept(&self, most: u64) -> Result<Option<(CallCost, Strategy)>, OracleError> {
-        // What a part copies out before it is undone can outweigh what that frees, by a few qubits.
+        // The copies that a part makes before it is undone can outweigh the qubits that it frees, by a few.
         let nearly = most.saturating_add(most / 16);
         let mut known: BTreeMap<usize, CallCost> = BTreeMap::new();
         let mut best: Option<(CallCost, Strategy)> = None;
-        // What is taken, and what may still be.
+        // Choices taken, and choices still open.
         let mut open = vec![(0, Strategy::CHOSEN - 1)];
         let mut choices = 0..Strategy::CHOICES.len();
         loop {
@@ -233,8 +234,8 @@ impl<'a> Layouts<'a> {
     }
 }
 
-/// The strategy of a scene's circuits. `auto` is the cheapest for the most expensive oracle with which
-/// all oracles fit into `budget.qubits`; it is looked for once a scene.
+/// The strategy of a scene's circuits. `auto` is the cheapest strategy for the most expensive oracle under
+/// which all oracles fit into `budget.qubits`. It is searched once per scene.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
     if let Some(strategy) = Strategy::of(scene.scene().circuit.uncompute) {
         return Ok(strategy);
@@ -269,9 +270,9 @@ fn auto(scene: &ValidScene) -> Result<Strategy, OracleError> {
     fitting(most, |qubits| layouts.cheapest(qubits), figures)
 }
 
-/// The strategy that `cheapest` has for at most `most` qubits, or for fewer until all oracles have at
-/// most `most`. `figures` are the qubits of the oracle that is looked at, and the most of any. If not
-/// all can fit, the last that was tried.
+/// The strategy that `cheapest` finds for `most` qubits, or for fewer until every oracle has at most `most`.
+/// `figures` are the qubits of the oracle that `cheapest` optimizes, and the most of any oracle. If not all
+/// oracles can fit, the result is the last strategy tried.
 fn fitting(
     most: u64,
     cheapest: impl Fn(u64) -> Result<Strategy, OracleError>,
@@ -285,7 +286,7 @@ fn fitting(
         if over == 0 || own > allowed {
             return Ok(strategy);
         }
-        // Others need about as many more under another strategy.
+        // Under another strategy, other oracles exceed this one by about the same number of qubits.
         allowed = own.saturating_sub(over);
     }
 }

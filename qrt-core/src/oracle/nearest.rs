@@ -11,14 +11,13 @@ use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use std::sync::Mutex;
 
-/// Most faces of a table that is looked up by a face's number: one number of 16 bits stands for
-/// none.
+/// Most faces of a table whose address is a face's number: one number of 16 bits stands for none.
 pub const MOST_FACES: usize = (1 << 16) - 1;
 
 /// The oracle of a scene's nearest hits.
 ///
 /// For a path, whose index is a basis state, it flips the phase of every basis state (primitive)
-/// whose face the path's first ray meets before all that is known so far:
+/// whose face the path's first ray meets before the best hit so far:
 ///
 /// ```text
 /// compute        id -> ray;  primitive -> face, by table;  (ray, face) -> meets, distance
@@ -27,46 +26,46 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 /// undo compute
 /// ```
 ///
-/// Pairs are compared by their distances and, where these are equal, by their numbers: so the least
-/// of all is what a running nearest keeps that asks about the faces in turn. `best` is classical:
-/// what the search has measured last. Without one it reads the greatest distance there is, which
-/// nothing is nearer than by number, so that every face that the ray meets is marked.
+/// Pairs are compared by their distances and, if these are equal, by their numbers. The least pair
+/// is therefore the hit that a running nearest keeps, which tests the faces in turn. `best` is
+/// classical: the last measurement of the search. Before the first, it is the greatest distance and
+/// the number 0, so that every face that the ray meets is marked.
 ///
-/// Grover's iterate over `primitive` finds a marked one (Lanzagorta & Uhlmann, *Quantum rendering*,
-/// 2005); searched again with what was found as `best`, the minimum (Durr & Hoyer 1996). The ray,
-/// the plane and the edges are those of the tracer (see [`crate::tracer::FaceTable`]), in fixed
-/// point. A face's data are rounded to the scene's fraction bits, where a circuit with a constant
-/// for each face can round products with it as a whole: the two may differ in a distance's last
-/// bits, and so at faces' edges.
+/// Grover's iterate over `primitive` finds a marked face (Lanzagorta & Uhlmann, *Quantum
+/// rendering*, 2005). Searches repeated with the last result as `best` find the minimum (Durr &
+/// Hoyer 1996). The ray, the plane and the edges are those of the tracer (see
+/// [`crate::tracer::FaceTable`]), in fixed point. A face's data are rounded to the scene's fraction
+/// bits. A circuit with a constant for each face can round products with the constant as a whole,
+/// so the two may differ in a distance's last bits, and therefore at faces' edges.
 ///
-/// There are `2^m` basis states for P faces, m the least above 0 with `2^m >= P`. Those beyond P
-/// meet nothing.
+/// There are `2^m` basis states for P faces, with the least m above 0 such that `2^m >= P`. States
+/// beyond P meet nothing.
 #[derive(Clone, Debug)]
 pub struct NearestOracle {
     /// The program that computes [`NearestOracle::distance`] and [`NearestOracle::nearer`].
     pub program: Program,
-    /// What the program's parameters hold in each pixel.
+    /// The values of the program's parameters, as functions of the pixel.
     pub parameters: Vec<PixelWord>,
     /// The register of the path index.
     pub id: RegisterId,
-    /// The register of the face's number: its index in [`FaceTable::labels`], which is the order in
-    /// which a running nearest asks about them.
+    /// The register of the face's number: its index in [`FaceTable::labels`], the order in which a
+    /// running nearest tests the faces.
     pub primitive: RegisterId,
     /// The register of the nearest distance so far, in units of `2^-fraction`.
     pub best_distance: RegisterId,
     /// The register of the nearest face's number so far.
     pub best_primitive: RegisterId,
-    /// The face's distance, in units of `2^-fraction` of the ray's direction; anything where the
-    /// ray does not meet it.
+    /// The face's distance, in units of `2^-fraction` of the ray's direction; arbitrary if the ray
+    /// does not meet the face.
     pub distance: Operand,
-    /// Whether the face is nearer than the nearest so far. None if no ray can meet any face.
+    /// True if the face is nearer than the nearest so far. None if no ray can meet any face.
     pub nearer: Option<Bit>,
-    /// What [`NearestOracle::best_distance`] holds where no face has been found, in units of
-    /// `2^-fraction`; the number then is 0.
+    /// The initial value of [`NearestOracle::best_distance`], in units of `2^-fraction`. Before a
+    /// face has been found, the number is 0.
     pub t_max: u64,
     /// The label in the scene of each face, and after the last the label that stands for no face.
     pub labels: Vec<u32>,
-    /// How many fraction bits every number has.
+    /// Number of fraction bits of every number.
     pub fraction: u32,
     /// The paths of a pixel.
     pub points: PathPoints,
@@ -76,7 +75,7 @@ impl NearestOracle {
     /// The oracle of a scene's primary rays; none if the scene has no faces.
     ///
     /// # Errors
-    /// A scene whose numbers no register can hold, or with more than [`MOST_FACES`] faces.
+    /// The scene has numbers that no register can hold, or more than [`MOST_FACES`] faces.
     pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
         let stage = Stage::<1>::new(scene, [0], PixelClass::MayMeetLamp);
         let list = FaceTable::new(&stage);
@@ -172,7 +171,7 @@ impl NearestOracle {
         1 << self.program.width(self.primitive)
     }
 
-    /// Flips the phase where the face is nearer: what stands between compute and uncompute.
+    /// Flips the phase if the face is nearer: the part between compute and uncompute.
     pub fn flip(&self) -> Program {
         let mut program = self.program.clone();
         let block = BlockId(program.blocks.len() as u32);
@@ -206,15 +205,15 @@ impl NearestOracle {
         whole
     }
 
-    /// What one query costs in gates, and the most qubits in use at any time.
+    /// The cost of one query in gates, and the most qubits in use at any time.
     pub fn cost(&self) -> (Cost, u32) {
         let whole = self.whole();
         let costs = lower::tally(&whole);
         (costs.into_iter().sum(), lower::most_qubits(&whole))
     }
 
-    /// The words that machines read of a program's end: the distance's and the mark's, as far as
-    /// they are not the same on all paths.
+    /// The words of the distance and the mark, which machines read at the program's end. None for a
+    /// value that is the same on all paths.
     pub fn outputs(&self) -> [Option<Word>; 2] {
         let distance = match self.distance {
             Operand::Word(word) => Some(word),
@@ -231,12 +230,12 @@ impl NearestOracle {
     }
 }
 
-/// Bits that count `faces`: the least above 0.
+/// Number of bits of a face's number, at least 1.
 fn index_bits(faces: usize) -> u32 {
     (usize::BITS - faces.saturating_sub(1).leading_zeros()).max(1)
 }
 
-/// Refuses what no table holds.
+/// Checks that a table holds the faces.
 pub(super) fn fits_table(list: &FaceTable) -> Result<(), OracleError> {
     if list.len() > MOST_FACES {
         return Err(OracleError::TooManyFaces { faces: list.len() });

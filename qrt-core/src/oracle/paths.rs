@@ -1,23 +1,24 @@
-//! The numbers of a path that predicates read, each in a register of a format that follows from the
-//! scene: in the scene's own units, whatever the circuit computes with.
+//! The numbers of a path that predicates read, in registers. The scene fixes the format of each
+//! register, in the scene's own units, which do not depend on those of the circuit.
 //!
 //! | number | format | meaning |
 //! |---|---|---|
-//! | `origin` | `Fixed` | where the ray starts, a point of the scene |
-//! | `direction` | `Fixed<2, F>` | where it goes: of length 1 |
-//! | `found` | `Bool` | whether it meets a face |
-//! | `distance` | `UFixed` | how far away that is, in units of the scene |
-//! | `face` | `UInt` | the face: 1 is the scene's first |
-//! | `material` | `UInt` | its material: 1 is the scene's first |
-//! | `front` | `Bool` | whether it is met on its front, which lamps emit from |
+//! | `origin` | `Fixed` | the point of the scene where the ray starts |
+//! | `direction` | `Fixed<2, F>` | the ray's direction, of length 1 |
+//! | `found` | `Bool` | true if the ray meets a face |
+//! | `distance` | `UFixed` | the distance of that face, in units of the scene |
+//! | `face` | `UInt` | the number of the face: 1 is the scene's first |
+//! | `material` | `UInt` | the number of its material: 1 is the scene's first |
+//! | `front` | `Bool` | true if the ray meets the face's front, which lamps emit from |
 //! | `normal` | `Fixed<2, F>` | the unit normal of its front |
 //! | `colour` | `UFixed` | the path's colour, in radiance |
 //!
-//! `F` is the scene's number of fraction bits. Points, distances and colours have as many bits
-//! before the point as the scene's extent asks for, and keep the precision that the circuit has.
+//! `F` is the scene's number of fraction bits. Points and distances have the number of bits before
+//! the point that the scene's extent needs, colours that of the brightest path. All keep the
+//! precision of the circuit.
 //!
-//! All numbers of a ray are 0 where the path has ended before it, and so are those of what it meets
-//! where it meets nothing: no face and no material has the number 0.
+//! All numbers of a ray are 0 if the path has ended before it. The numbers of its hit are 0 if the
+//! ray meets nothing: no face and no material has the number 0.
 
 use super::DEFAULT_FRACTION;
 use crate::tracer::{PixelClass, Stage};
@@ -30,22 +31,22 @@ use std::fmt;
 /// Most bits of a register of a path.
 const MOST_BITS: i32 = 62;
 
-/// A number of a ray. Vectors are told by component: 0, 1, 2 for x, y, z.
+/// A number of a ray. Vectors are given by component: 0, 1, 2 for x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RayNumber {
     /// A coordinate of the point where the ray starts.
     Origin(usize),
     /// A component of the ray's unit direction.
     Direction(usize),
-    /// Whether the ray meets a face.
+    /// True if the ray meets a face.
     Found,
-    /// How far away the face is.
+    /// The distance of the face.
     Distance,
     /// The face's number.
     Face,
     /// The number of the face's material.
     Material,
-    /// Whether the face is met on its front.
+    /// True if the ray meets the front of the face.
     Front,
     /// A component of the unit normal of the face's front.
     Normal(usize),
@@ -70,7 +71,7 @@ impl RayNumber {
         Self::Normal(2),
     ];
 
-    /// Whether it is a number of what the ray meets.
+    /// True if it is a number of the ray's hit.
     pub(crate) fn is_of_hit(self) -> bool {
         !matches!(self, Self::Origin(_) | Self::Direction(_))
     }
@@ -79,13 +80,13 @@ impl RayNumber {
 /// A number of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PathNumber {
-    /// A number of the ray after so many bounces.
+    /// A number of the ray after a number of bounces.
     Ray(usize, RayNumber),
     /// The path's radiance in a channel: 0 red, 1 green, 2 blue.
     Colour(usize),
 }
 
-/// `ray1.origin.x`
+/// Writes a name like `ray1.origin.x`.
 impl fmt::Display for PathNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (depth, number) = match self {
@@ -110,15 +111,14 @@ impl fmt::Display for PathNumber {
     }
 }
 
-/// The format of a register, and how a number of the circuit gets into it.
+/// The format of a register, and the conversion of a number of the circuit to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathFormat {
-    /// What the register's bits mean.
+    /// The meaning of the register's bits.
     pub ty: Type,
-    /// How many bits the register has: 1 to 62.
+    /// Number of bits of the register: 1 to 62.
     pub width: u32,
-    /// The register is the circuit's number, in units of its last place, times `2^shift` and
-    /// rounded down.
+    /// The register is `floor(n 2^shift)`, for the circuit's number n in units in its last place.
     pub(crate) shift: i32,
 }
 
@@ -131,8 +131,9 @@ impl PathFormat {
         }
     }
 
-    /// The format of numbers whose magnitude is below `2^above`, if the last place of the circuit's
-    /// is `2^-fraction`: with all of that precision, or as much of it as there are bits for.
+    /// The format of numbers whose magnitude is below `2^above`. The last place of the circuit is
+    /// `2^-fraction`. The format keeps all of that precision, or as much of it as fits. None if the
+    /// bits before the point do not fit.
     fn number(signed: bool, above: i32, fraction: i32) -> Option<Self> {
         let whole = above + i32::from(signed);
         let kept = fraction.max(0).min(MOST_BITS - whole);
@@ -150,7 +151,7 @@ impl PathFormat {
         })
     }
 
-    /// How many of the bits are after the point.
+    /// Number of bits after the point.
     pub fn fraction(&self) -> u32 {
         match self.ty {
             Type::Fixed { fraction } | Type::UFixed { fraction } => fraction,
@@ -170,7 +171,8 @@ impl PathFormat {
         units * f64::from(self.fraction()).exp2().recip()
     }
 
-    /// The bits of the number of this format that is nearest to `value`; none beyond its range.
+    /// The bits of the number of this format that is nearest to `value`; none if that is out of
+    /// range.
     pub fn bits(&self, value: f64) -> Option<u64> {
         let units = (value * f64::from(self.fraction()).exp2()).round_ties_even();
         let signed = matches!(self.ty, Type::Fixed { .. } | Type::Int);
@@ -181,11 +183,11 @@ impl PathFormat {
     }
 }
 
-/// The registers of a path of one scene: how many rays it has, and the format of each number.
+/// The registers of a path of one scene: the number of its rays, and the format of each number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathFormats {
-    /// The rays that are traced: the scene's, but for a last one which only a lamp can be sampled
-    /// in place of.
+    /// Number of rays that are traced: the scene's, without a last ray in place of which only a
+    /// lamp is sampled.
     pub rays: usize,
     point: PathFormat,
     distance: PathFormat,
@@ -193,7 +195,7 @@ pub struct PathFormats {
     face: PathFormat,
     material: PathFormat,
     colour: PathFormat,
-    /// The power of two that colours are in units of.
+    /// The unit of colours, a power of two.
     pub(crate) colour_unit: f64,
     /// The point of the scene that is the origin of the circuit's numbers.
     pub(crate) centre: [f64; 3],
@@ -211,8 +213,7 @@ fn above(most: f64) -> i32 {
 }
 
 impl PathFormats {
-    /// The formats of a scene's paths; none if the scene is larger than 62 bits before the point
-    /// can tell.
+    /// The formats of a scene's paths; none if the scene is too large for 62 bits before the point.
     pub fn new(scene: &ValidScene) -> Option<Self> {
         Self::of(
             scene,
@@ -225,10 +226,10 @@ impl PathFormats {
         let geometry = stage.geometry();
         let scale = geometry.scale;
         let fraction = fraction.cast_signed();
-        // Of the scene's numbers, whose unit is `2^-steps` of the circuit's.
+        // The unit of the scene's numbers is `2^steps` of the circuit's unit.
         let steps = scale.log2().round() as i32;
-        // Vertices lie within one unit of the circuit around the centre, and rounding is far from
-        // taking them another one away.
+        // Vertices lie within one unit of the circuit around the centre. Rounding moves them by far
+        // less than another unit.
         let vertices = geometry.centre.abs().max_element() + 2.0 / scale;
         let starts = stage.starts.iter();
         let starts = starts.map(|p| (*p / scale + geometry.centre).abs().max_element());
@@ -242,12 +243,12 @@ impl PathFormats {
         Some(Self {
             rays: stage.traced_rays(),
             point: PathFormat::number(true, above(farthest), fraction + steps)?,
-            // Twice the distance that anything can be met at.
+            // Twice the greatest distance of a hit.
             distance: PathFormat::number(false, above(2.0 * t_max), fraction + steps)?,
             unit: PathFormat::number(true, 1, fraction)?,
             face: count(faces),
             material: count(materials),
-            // Twice the brightest path.
+            // Twice the colour of the brightest path.
             colour: PathFormat::number(false, colour + 1, fraction - colour)?,
             colour_unit: f64::from(colour).exp2(),
             centre: geometry.centre.to_array(),
@@ -255,9 +256,9 @@ impl PathFormats {
         })
     }
 
-    /// The scene made ready for paths whose `numbers` are read, of pixels of this class: their
-    /// last rays are searched for all that they meet, if that is asked for, and their primary rays
-    /// have directions of length 1, if these or distances along them are.
+    /// Prepares the scene for paths whose `numbers` are read, of pixels of `class`. If `numbers`
+    /// contain hits of the last rays, these rays are searched for all faces. If they contain
+    /// directions or distances of the primary rays, these rays have directions of length 1.
     pub fn stage(&self, scene: &ValidScene, numbers: &[PathNumber], class: PixelClass) -> Stage<3> {
         let mut stage = Stage::rgb(scene, class);
         let rays = |asked: &dyn Fn(usize, RayNumber) -> bool| {
@@ -299,13 +300,13 @@ impl PathFormats {
         rays.chain([0, 1, 2].map(PathNumber::Colour)).collect()
     }
 
-    /// A point of the circuit's, in the scene.
+    /// Converts a point of the circuit to the scene's units.
     pub fn point(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let point = DVec3::new(x, y, z) / self.scale + DVec3::from_array(self.centre);
         point.to_array()
     }
 
-    /// A distance of the circuit's, in the scene.
+    /// Converts a distance of the circuit to the scene's units.
     pub fn distance(&self, distance: f64) -> f64 {
         distance / self.scale
     }
@@ -325,11 +326,11 @@ pub trait PathScene: Sized + 'static {
     /// The scene.
     fn scene() -> &'static ValidScene;
 
-    /// The registers, as inputs of what is recorded.
+    /// Declares the registers as inputs of the recording.
     fn path(inputs: &mut PathInputs<'_>) -> Self::Path;
 }
 
-/// Makes the registers of a path, for generated code.
+/// Creates the registers of a path, for generated code.
 #[derive(Debug)]
 pub struct PathInputs<'a> {
     pub(super) recorder: &'a mut Recorder,
@@ -359,23 +360,23 @@ pub struct ColourRegisters<T> {
     pub b: Reg<Recorded, T>,
 }
 
-/// The registers of a ray and of what it meets: see [the module](self). `P`, `U`, `L`, `F` and `M`
-/// are the formats of points, unit vectors, distances, faces and materials.
+/// The registers of a ray and of its hit: see [the module](self). `P`, `U`, `L`, `F` and `M` are
+/// the formats of points, unit vectors, distances, faces and materials.
 #[derive(Debug)]
 pub struct RayRegisters<P, U, L, F, M> {
-    /// Where the ray starts, a point of the scene.
+    /// The point of the scene where the ray starts.
     pub origin: VectorRegisters<P>,
-    /// Where the ray goes: of length 1.
+    /// The ray's direction, of length 1.
     pub direction: VectorRegisters<U>,
-    /// Whether the ray meets a face.
+    /// True if the ray meets a face.
     pub found: Reg<Recorded, Bool>,
-    /// How far away the face is, in units of the scene.
+    /// The distance of the face, in units of the scene.
     pub distance: Reg<Recorded, L>,
     /// The number of the face, from 1 on.
     pub face: Reg<Recorded, F>,
     /// The number of the face's material, from 1 on.
     pub material: Reg<Recorded, M>,
-    /// Whether the face is met on its front.
+    /// True if the ray meets the front of the face.
     pub front: Reg<Recorded, Bool>,
     /// The unit normal of the face's front.
     pub normal: VectorRegisters<U>,
@@ -385,7 +386,7 @@ impl PathInputs<'_> {
     /// The register of a number.
     ///
     /// # Panics
-    /// If the number has another format than `T`: generated code knows them.
+    /// If the number's format is not `T`: generated code has the right formats.
     fn register<T: Format>(&mut self, number: PathNumber) -> Reg<Recorded, T> {
         let format = self.formats.format(number);
         assert!(
@@ -410,7 +411,7 @@ impl PathInputs<'_> {
     /// The registers of the ray after `depth` bounces.
     ///
     /// # Panics
-    /// If a format is another one than the scene's: generated code knows them.
+    /// If a format is not the scene's: generated code has the right formats.
     pub fn ray<P: Format, U: Format, L: Format, F: Format, M: Format>(
         &mut self,
         depth: usize,
@@ -447,7 +448,8 @@ mod tests {
 
     #[test]
     fn formats_hold_their_range_and_the_circuits_precision() {
-        // 560 units across, 14 fraction bits of 512 units: 5 are left after the point.
+        // The scene is 560 units across. Of 14 fraction bits of 512 units, 5 are left after the
+        // point.
         let millimetres = PathFormat::number(true, above(559.0), 14 - 9).unwrap();
         assert_eq!(millimetres.ty, Type::Fixed { fraction: 5 });
         assert_eq!((millimetres.width, millimetres.shift), (16, 0));
@@ -456,13 +458,14 @@ mod tests {
             Some(-559.0)
         );
         assert_eq!(millimetres.bits(1024.0), None);
-        // Coarser than units: zeros below the point that is not there.
+        // The last place is larger than a unit: the register has low zeros and no bits after the
+        // point.
         let far = PathFormat::number(true, 30, -4).unwrap();
         assert_eq!(
             (far.ty, far.width, far.shift),
             (Type::Fixed { fraction: 0 }, 31, 4)
         );
-        // More than there are bits for: the last are dropped.
+        // There are more bits than the register holds: the last are dropped.
         let fine = PathFormat::number(false, 31, 34).unwrap();
         assert_eq!((fine.fraction(), fine.width, fine.shift), (31, 62, -3));
         assert_eq!(PathFormat::number(true, 62, 10), None);

@@ -4,18 +4,18 @@ use super::Oracle;
 use qrt_circuit::lower;
 use qrt_circuit::quantum::{PhaseOracle, QuantumError};
 
-/// With more bits in registers than these, a circuit's gates are not held.
+/// Most bits in registers of a circuit whose gates are stored.
 pub const MOST_BITS: u64 = 1 << 19;
 
 impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
     /// qubits in superposition are the path index and, above it, the comparator.
     ///
-    /// If registers come to more than [`MOST_BITS`], gates are not held, but made in each call:
-    /// [`PhaseOracle::lowered`].
+    /// If the registers have more than [`MOST_BITS`] bits, the gates are not stored, but generated
+    /// in each call: [`PhaseOracle::lowered`].
     ///
     /// # Errors
-    /// No such channel.
+    /// The oracle has no channel of that number.
     pub fn phase(
         &self,
         channel: usize,

@@ -1,7 +1,7 @@
-//! Predicates of one's own: reversible code over a path's registers says which paths are good.
+//! User-defined predicates: reversible code over a path's registers decides if the path is good.
 //!
 //! The oracle of a predicate computes the numbers of a path that the predicate reads, and no
-//! others, then the predicate, flips one phase, and undoes all of it:
+//! others. Then it computes the predicate, flips one phase, and undoes all of it:
 //!
 //! ```text
 //! compute        id -> the rays, as far as they are read; the numbers in their formats
@@ -11,8 +11,8 @@
 //! undo predicate, undo compute
 //! ```
 //!
-//! Of [`Marks::Paths`] the good indices are the good paths, S of R. Of [`Marks::Light`] they are
-//! pairs of a good path and a comparator that its colour exceeds: what is counted is the light that
+//! For [`Marks::Paths`] the good indices are the good paths, S of R. For [`Marks::Light`] they are
+//! pairs of a good path and a comparator that its colour exceeds: the count measures the light that
 //! arrives on good paths.
 
 mod traced;
@@ -30,27 +30,27 @@ use qrt_circuit::{
 use std::collections::HashMap;
 use traced::traced;
 
-/// What is counted where a predicate holds.
+/// The quantity that is counted where a predicate holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marks {
     /// Paths: S of the R paths of a pixel are good.
     Paths,
-    /// Light: as for a picture, of which all paths are black that are not good.
+    /// Light: as for a picture in which all paths are black that are not good.
     Light,
 }
 
-/// Code that is no predicate of a scene's paths.
+/// The reason why code is not a predicate of a scene's paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PredicateError {
-    /// The predicate leaves something in a register.
+    /// The predicate leaves a value in a register.
     Kept {
         /// The register's name.
         register: String,
     },
     /// The predicate flips phases itself.
     Flips,
-    /// The scene is larger than registers can tell.
+    /// The scene is too large for registers.
     TooLarge,
 }
 
@@ -77,28 +77,29 @@ impl std::error::Error for PredicateError {}
 
 /// A predicate of a scene's paths: a program from the numbers of a path to one bit.
 ///
-/// The registers' types are made by `qrt!`; the crate `qrt` shows predicates at work.
+/// `qrt!` generates the types of the registers; the crate `qrt` has examples of predicates.
 #[derive(Clone, Debug)]
 pub struct Predicate {
     scene: &'static ValidScene,
     formats: PathFormats,
-    /// From the numbers that it reads, its inputs, to the bit.
+    /// The program from the numbers that it reads, its inputs, to the bit.
     program: Program,
     numbers: Vec<PathNumber>,
     good: RegisterId,
 }
 
 impl Predicate {
-    /// Records a predicate: code that flips the bit that it is given where the path is good, and
-    /// leaves everything else as it was. The bit is 0 before. What it reads it cannot change: it
-    /// has the path by reference. Reversible functions leave nothing in registers of their own; of
-    /// code written by hand, what it leaves in one that it frees is found by the gates machine.
+    /// Records a predicate: code that flips the given bit if the path is good, and leaves
+    /// everything else unchanged. The bit is 0 before. The code has the path by reference, so it
+    /// cannot change the numbers that it reads. Reversible functions leave nothing in registers of
+    /// their own. If code written by hand leaves a value in a register that it frees, the gates
+    /// machine finds it.
     ///
     /// # Errors
-    /// Code that leaves something behind or flips phases, and a scene too large for registers.
+    /// The code leaves a value behind or flips phases, or the scene is too large for registers.
     ///
     /// # Panics
-    /// If it puts another recorder in the place of its own.
+    /// If the code puts another recorder in the place of its own.
     pub fn of<S: PathScene>(
         predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
     ) -> Result<Self, PredicateError> {
@@ -147,7 +148,7 @@ impl Predicate {
         })
     }
 
-    /// The scene whose paths it is about.
+    /// The scene of the predicate's paths.
     pub fn scene(&self) -> &'static ValidScene {
         self.scene
     }
@@ -162,20 +163,20 @@ impl Predicate {
         &self.program
     }
 
-    /// The numbers of a path that it reads.
+    /// The numbers of a path that the predicate reads.
     pub fn numbers(&self) -> &[PathNumber] {
         &self.numbers
     }
 
-    /// The bit of the program's end that says whether the path is good.
+    /// The bit at the program's end that is 1 if the path is good.
     pub fn good(&self) -> Word {
         Word::unsigned(self.good, 0, 1)
     }
 
     /// The oracle of the predicate.
     ///
-    /// Of [`Marks::Paths`] it has one channel, and no comparator: it flips the phase of good paths.
-    /// Of [`Marks::Light`] it has the three of a picture.
+    /// For [`Marks::Paths`] it has one channel, and no comparator: it flips the phase of good
+    /// paths. For [`Marks::Light`] it has the three channels of a picture.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -203,7 +204,8 @@ impl Predicate {
         Ok(oracle)
     }
 
-    /// Lets the predicate follow what `program` computes; returns the register of its bit.
+    /// Appends the predicate to `program`, whose `registers` are its inputs. Returns the register
+    /// of its bit.
     fn append(&self, program: &mut Program, registers: &[RegisterId]) -> RegisterId {
         let block = last_block(program);
         let given = self
@@ -239,8 +241,8 @@ impl Predicate {
 }
 
 impl Oracle {
-    /// The oracle of a scene's path itself: its program computes the `numbers` of a path, which
-    /// marks nothing. The registers that hold them come beside it, in their order.
+    /// The oracle of a scene's paths without a predicate: its program computes the `numbers` of a
+    /// path and marks nothing. Also returns the registers that hold the numbers, in their order.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -252,8 +254,8 @@ impl Oracle {
         traced(scene, formats, numbers, Marks::Paths, Options::default())
     }
 
-    /// What one query costs in gates, and the most qubits in use at any time, if channel number
-    /// `channel` of [`Oracle::channels`] is asked for.
+    /// The cost of one query in gates, and the most qubits in use at any time. The query is for
+    /// channel number `channel` of [`Oracle::channels`].
     pub fn cost(&self, channel: usize) -> (Cost, u32) {
         let whole = self.whole(channel);
         let costs = lower::tally(&whole);
@@ -261,7 +263,7 @@ impl Oracle {
     }
 }
 
-/// The block of the predicate: the last of the program's.
+/// The block of the predicate: the last one of the program.
 fn last_block(program: &Program) -> BlockId {
     let blocks = program
         .blocks

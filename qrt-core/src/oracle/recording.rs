@@ -16,10 +16,10 @@ use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
 use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard};
 
-/// Channels by number.
+/// Names of channels, by number.
 pub(super) const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
 
-/// How the first ray's hit comes about.
+/// The source of the first ray's hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PrimaryHit {
     /// The tracer finds the primary hit.
@@ -28,7 +28,7 @@ pub(super) enum PrimaryHit {
     Given,
 }
 
-/// What a program of `scene` is built for.
+/// The settings with which a program of `scene` is built.
 pub(super) fn target<'a, const C: usize>(
     scene: &ValidScene,
     stage: &Stage<C>,
@@ -47,7 +47,7 @@ pub(super) fn target<'a, const C: usize>(
     }
 }
 
-/// The colours of a path, and the register of its primary hit if that is given.
+/// The colours of a path, and the register of its primary hit if the hit is an input.
 pub(super) fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
     builder: &mut Builder<'a>,
     stage: &Stage<C>,
@@ -59,14 +59,14 @@ pub(super) fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
         return Ok((trace(builder, stage, nearest), None));
     }
     fits_table(&list)?;
-    // One number more than faces: that of none.
+    // One number more than faces, which stands for none.
     let width = list.len().ilog2() + 1;
     let (register, face) = builder.given_index("nearest", Role::Id, width);
     let nearest = PrimaryHitGiven::new(&list, face, nearest);
     Ok((trace(builder, stage, &nearest), Some(register)))
 }
 
-/// What was recorded, and what is known of it: `known` is an oracle without a program.
+/// A recording of a scene. `known` is an oracle without a program.
 pub(super) struct Recording {
     recorded: Recorded,
     strategy: Strategy,
@@ -85,7 +85,7 @@ impl Recording {
         Self::with(scene, channels, options, first, |_, _, _| Vec::new())
     }
 
-    /// All three channels, followed by their luminance.
+    /// Records all three channels, followed by their luminance.
     pub(super) fn with_luminance(
         scene: &ValidScene,
         options: Options,
@@ -116,7 +116,8 @@ impl Recording {
         )
     }
 
-    /// The channels, and others that `more` makes of their colours: number, colour and scale.
+    /// Records the channels, and others that `more` makes of their colours: number, colour and
+    /// scale.
     fn with<const C: usize>(
         scene: &ValidScene,
         channels: [usize; C],
@@ -185,17 +186,17 @@ impl Recording {
         })
     }
 
-    /// What is known of operations; others wait until it is given back.
+    /// Locks the cache of operations' figures; other threads wait until the guard is dropped.
     pub(super) fn known(&self) -> MutexGuard<'_, compile::Known> {
         compile::locked(&self.ops)
     }
 
-    /// The oracle of the channels at these places among those recorded.
+    /// The oracle of the recorded channels at `places`.
     pub(super) fn oracle(&self, places: &[usize]) -> Oracle {
         self.oracle_under(self.strategy, places)
     }
 
-    /// The same under another strategy, one that needs the same recording ([`Strategy::recording`]).
+    /// The same under another `strategy` that needs the same recording ([`Strategy::recording`]).
     pub(super) fn oracle_under(&self, strategy: Strategy, places: &[usize]) -> Oracle {
         let mut outputs: Vec<Channel> = places
             .iter()
@@ -239,7 +240,7 @@ impl Recording {
         });
         let places = places.filter(|named| held.contains(&named.place.register()));
         let places: Vec<NamedPlace> = places.collect();
-        // Where two are in one register, it has the first one's name.
+        // If two values are in one register, it has the first one's name.
         let mut called = HashSet::new();
         for named in &places {
             let id = named.place.register();

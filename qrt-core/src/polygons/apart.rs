@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-/// Distances below this are rounding.
+/// Distances below this count as rounding.
 const MARGIN: f64 = 1e-12;
 
-/// True if a plane is found with `a` on one side and `b` on the other, one of which touches it in the
-/// corners and the edge that they share at most. False says nothing.
+/// True if a plane is found with `a` on one side and `b` on the other, and one of them touches it
+/// at most in the corners and the edge that they share. False proves nothing.
 ///
-/// Between convex polygons such a plane is normal to one of them, to an edge within the plane of one of
-/// them, or parallel to an edge of each (the separating axis theorem).
+/// The normal of a separating plane of convex polygons is that of one of them, or normal to an edge
+/// within the plane of one of them, or normal to an edge of each (the separating axis theorem).
 pub(super) fn share_corners_alone(a: &[DVec3], b: &[DVec3]) -> bool {
     let edges =
         |p: &[DVec3]| -> Vec<DVec3> { (0..p.len()).map(|k| p[(k + 1) % p.len()] - p[k]).collect() };
@@ -30,8 +30,8 @@ pub(super) fn share_corners_alone(a: &[DVec3], b: &[DVec3]) -> bool {
         .any(|axis| separates(axis, a, b) || separates(-axis, a, b))
 }
 
-/// True if a plane across `axis` has `a` below it and `b` above it, one of them strictly but for corners
-/// that both have.
+/// True if a plane normal to `axis` has `a` below it and `b` above it, one of them strictly except
+/// for shared corners.
 fn separates(axis: DVec3, a: &[DVec3], b: &[DVec3]) -> bool {
     let heights = |p: &[DVec3], other: &[DVec3], shared: bool| -> Vec<f64> {
         let corners = p.iter().filter(|corner| other.contains(corner) == shared);

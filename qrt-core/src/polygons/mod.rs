@@ -1,7 +1,7 @@
 //! Convex polygons in space: which of them overlap on a plane, and which enclose a solid.
 //!
-//! Corners are in units in which the scene is about one unit large; constants here are rounding errors
-//! of such numbers.
+//! Corners are in units in which the scene is about one unit large. The constants of this module
+//! are rounding errors of numbers of that size.
 
 mod apart;
 mod overlap;
@@ -14,15 +14,16 @@ pub(crate) use solid::{Solid, solids};
 
 use glam::DVec3;
 
-/// Planes nearer than this to each other (in coefficients and offset) are one.
+/// Planes nearer than this to each other (in coefficients and offset) count as one.
 pub(crate) const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 
-/// The centre of the box around `points`, and the power of two that scales the box's greatest half
-/// extent into `[1/2, 1)`; the origin and 1 where all of them are one point, or there are none.
+/// Returns the centre of the box around `points`, and the power of two that scales the box's
+/// greatest half extent into `[1/2, 1)`. Returns the origin and 1 if all points coincide, or there
+/// are none.
 pub(crate) fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, f64) {
     let (low, high) = bounds(points);
     let extent = (high * 0.5 - low * 0.5).max_element();
-    // Nor is it where there are no points.
+    // Without points the extent is negative infinity.
     let has_extent = extent > 0.0;
     if !has_extent {
         return (DVec3::ZERO, 1.0);
@@ -32,8 +33,8 @@ pub(crate) fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3
     (low * 0.5 + high * 0.5, libm::ldexp(1.0, -exponent))
 }
 
-/// The axis of the greatest component of a normal. Of components that rounding alone makes unequal, the
-/// first: polygons of one plane have one main axis.
+/// Returns the axis of the greatest component of a normal. Of components that only rounding makes
+/// unequal it is the first, so that polygons of one plane have one main axis.
 pub(crate) fn main_axis(normal: DVec3) -> usize {
     let size = normal.abs();
     let least = size.max_element() * (1.0 - 4.0 * SAME_PLANE);

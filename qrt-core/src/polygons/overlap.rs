@@ -1,42 +1,43 @@
-//! Convex polygons of one plane, of which some cover others.
+//! Overlaps of convex polygons of one plane.
 
 use super::SAME_PLANE;
 use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
-/// What may be asked of a tree for each polygon that it is asked about, on the average: a rectangle is one, a
-/// polygon [`OF_POLYGON`]. Beyond it, polygons that may overlap are not looked at any more.
+/// Average work per query of a tree: testing a rectangle costs 1, comparing a polygon
+/// [`OF_POLYGON`]. Beyond it, polygons that may overlap are not compared.
 const ASKED: u64 = 1024;
 const OF_POLYGON: u64 = 8;
 
-/// Polygons of one plane, in a tree of rectangles around them, so that those that a polygon overlaps are
-/// found without asking all.
+/// Polygons of one plane, in a tree of rectangles around them, which finds the polygons that
+/// overlap another without comparing all.
 pub(crate) struct Outlines<'a> {
-    /// The axis that is left out of rectangles.
+    /// The axis that rectangles leave out.
     axis: usize,
     polygons: Vec<&'a [DVec3]>,
-    /// The root last.
+    /// The nodes; the root is the last.
     nodes: Vec<Node>,
-    /// By polygon: its node.
+    /// The leaf of each polygon.
     leaves: Vec<usize>,
-    /// The polygons of this number and greater ones are asked.
+    /// Polygons of this number and greater ones are active: queries compare them.
     start: usize,
-    /// What may still be asked.
+    /// The work that is left.
     left: u64,
 }
 
 struct Node {
     rectangle: Rectangle,
-    /// The least number below of a polygon that is asked; none yet, the greatest number there is.
+    /// The least number of an active polygon below this node; the greatest `usize` if there is
+    /// none.
     least: usize,
-    /// Two nodes; none where there is one polygon.
+    /// The two children; `None` for a leaf, which has one polygon.
     children: Option<[usize; 2]>,
-    /// The node above; of the root, itself.
+    /// The parent node; the root is its own parent.
     parent: usize,
 }
 
-/// Low and high corner.
+/// A rectangle: its low and its high corner.
 #[derive(Clone, Copy)]
 struct Rectangle([[f64; 2]; 2]);
 
@@ -73,7 +74,8 @@ impl Rectangle {
 }
 
 impl<'a> Outlines<'a> {
-    /// At least one polygon on a plane whose main axis is `axis`. None is asked yet.
+    /// Creates the tree of at least one polygon on a plane whose main axis is `axis`. No polygon is
+    /// active yet.
     pub(crate) fn new(axis: usize, polygons: Vec<&'a [DVec3]>) -> Self {
         let mut all = Self {
             axis,
@@ -126,7 +128,7 @@ impl<'a> Outlines<'a> {
         parent
     }
 
-    /// Asks the polygons of this number and greater ones, too, from here on: it never becomes greater.
+    /// Activates the polygons of number `start` and greater ones. The start never increases.
     pub(crate) fn ask_from(&mut self, start: usize) {
         for number in (start..self.start).rev() {
             let mut node = self.leaves[number];
@@ -142,8 +144,9 @@ impl<'a> Outlines<'a> {
         self.start = self.start.min(start);
     }
 
-    /// The first of the polygons that are asked with which `outline` has more than edges in common. Where polygons
-    /// lie over each other by the thousand without overlapping, it may be the first of all.
+    /// Returns the first active polygon that overlaps `outline` in more than edges. If the work is
+    /// used up, returns the first active polygon, which may not overlap it: thousands of polygons
+    /// may lie over each other without overlapping.
     pub(crate) fn first_overlapped(&mut self, outline: &[DVec3]) -> Option<usize> {
         let root = self.nodes.len() - 1;
         let rectangle = Rectangle::of(self.axis, outline);
@@ -176,13 +179,13 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// Whether polygons of a plane whose main axis is `axis` lie side by side and fill a convex region, as
-/// the triangles of a fan or of a grid do: then no two have more than edges in common. If it is not
-/// seen that they do, they may.
+/// True if polygons of a plane whose main axis is `axis` lie side by side and fill a convex region,
+/// as the triangles of a fan or of a grid do. Then no two have more than edges in common. False
+/// proves nothing.
 ///
-/// All must go around in one direction. How often a point is covered is then the winding number about
-/// it of the edges that no two polygons share. If these are one convex loop that goes around once, it
-/// is 1 within the loop, and 0 outside.
+/// All must go around in one direction. The number of polygons that cover a point is then the
+/// winding number about it of the edges that no two polygons share. If these edges are one convex
+/// loop that goes around once, the number is 1 within the loop, and 0 outside.
 pub(crate) fn fill_once<'a>(axis: usize, polygons: impl Iterator<Item = &'a [DVec3]>) -> bool {
     let flat = |corner: DVec3| DVec2::new(corner[(axis + 1) % 3], corner[(axis + 2) % 3]);
     let key = |corner: DVec2| (corner + DVec2::ZERO).to_array().map(f64::to_bits);
@@ -218,7 +221,7 @@ pub(crate) fn fill_once<'a>(axis: usize, polygons: impl Iterator<Item = &'a [DVe
     at == start && next.is_empty() && turns_once(&outline, around == Some(true))
 }
 
-/// Whether a closed line turns to one side alone, and once around: to the left if `left`.
+/// True if a closed line turns only to one side, and goes around once: to the left if `left`.
 fn turns_once(outline: &[DVec2], left: bool) -> bool {
     let corner = |k: usize| outline[k % outline.len()];
     let mut whole = 0.0;
@@ -252,7 +255,7 @@ pub(crate) fn overlap(a: &[DVec3], b: &[DVec3], width: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// A triangle of some size at some place of the plane z = 1.
+    /// Returns a pseudorandom triangle of the plane z = 1.
     fn triangle(state: &mut u64) -> Vec<DVec3> {
         let mut next = || {
             *state = state
@@ -265,7 +268,7 @@ mod tests {
         vec![corner(x, y), corner(x + size, y), corner(x, y + size)]
     }
 
-    /// Corners on a circle of the plane z = 1, and their number.
+    /// Returns `corners` corners on a circle of the plane z = 1.
     fn around(corners: usize) -> Vec<DVec3> {
         let corner = |k: usize| {
             let (sin, cos) = (TAU * k as f64 / corners as f64).sin_cos();
@@ -344,7 +347,7 @@ mod tests {
         assert!((1000..2990).contains(&found), "{found}");
     }
 
-    /// Squares one upon the other, in heaps, and thin ones side by side whose rectangles meet.
+    /// Triangles in a heap, and thin strips side by side whose rectangles meet.
     #[test]
     fn however_polygons_lie_few_are_asked() {
         const COUNT: usize = 20_000;

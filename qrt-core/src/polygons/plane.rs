@@ -1,23 +1,23 @@
-//! Polygons on one plane, of which two overlap.
+//! Finds overlaps of polygons on one plane.
 
 use super::overlap::overlap;
 use super::{SAME_PLANE, bounds, main_axis};
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Polygons whose boxes meet that are compared at most.
+/// Maximum number of comparisons of polygons whose boxes meet.
 const MOST_COMPARED: usize = 1 << 22;
-/// Boxes that are compared at most.
+/// Maximum number of comparisons of boxes.
 const MOST_BOXES: usize = 1 << 26;
 
-/// Overlaps of polygons that lie on one plane.
+/// The result of a search for polygons that overlap on one plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Overlap {
     /// There is none.
     None,
-    /// These two, by number.
+    /// The numbers of two polygons that overlap.
     Of([usize; 2]),
-    /// None is found within the effort that is spent.
+    /// None is found within the effort limits.
     Unknown,
 }
 
@@ -37,10 +37,10 @@ fn place(polygon: &[DVec3]) -> Option<[f64; 4]> {
     Some([normal.x, normal.y, normal.z, normal.dot(polygon[0])])
 }
 
-/// Polygons by plane, with the planes' main axes.
+/// Groups polygons by plane, each with the plane's main axis.
 fn by_plane<'a>(polygons: &[&'a [DVec3]]) -> Vec<(usize, Vec<Outline<'a>>)> {
-    // Wide against what planes of one may differ by; a plane at a bucket's edge is looked for in the
-    // bucket beyond it, too.
+    // Buckets are wide against the rounding within one plane. A plane at a bucket's edge is also
+    // looked up in the bucket beyond it.
     let bucket_width = 16.0 * SAME_PLANE;
     let mut buckets: HashMap<[i64; 4], usize> = HashMap::new();
     let mut planes = Vec::new();
@@ -72,7 +72,7 @@ fn by_plane<'a>(polygons: &[&'a [DVec3]]) -> Vec<(usize, Vec<Outline<'a>>)> {
     planes
 }
 
-/// Two polygons that lie on one plane and have a region in common that is wider than `width`.
+/// Finds two polygons that lie on one plane and have a region in common that is wider than `width`.
 pub(crate) fn first_overlap(polygons: &[&[DVec3]], width: f64) -> Overlap {
     let (mut compared, mut boxes) = (0, 0);
     let mut found: Option<[usize; 2]> = None;
@@ -142,10 +142,10 @@ mod tests {
             turned.reverse();
             let over = [&apart[..], &[turned, at(0.0, 0.0, 0.0)]].concat();
             assert_eq!(found(&over), Overlap::Of([0, 4]), "{slope}");
-            // A plane's coefficients that rounding moves.
+            // Rounding moves a plane's coefficients.
             let near = [at(0.0, 0.0, 0.2), at(0.25, 0.0, 0.2 + 1e-14)];
             assert_eq!(found(&near), Overlap::Of([0, 1]), "{slope}");
-            // A sliver is as wide as is asked about.
+            // A sliver counts if it is wider than `width`.
             let sliver = [at(0.0, 0.0, 0.0), at(1.0 - 1e-8, 0.0, 0.0)];
             let sliver: Vec<&[DVec3]> = sliver.iter().map(Vec::as_slice).collect();
             assert_eq!(

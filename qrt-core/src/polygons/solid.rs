@@ -1,33 +1,34 @@
-//! Solids: what closed surfaces enclose.
+//! Solids: the regions that closed surfaces enclose.
 //!
-//! A closed surface whose polygons all go around alike gives each point a *winding number*: how often
-//! the surface goes around it. Crossing a polygon against its normal raises the number by 1, along its
-//! normal lowers it. Around a surface that does not meet itself the number is 0 outside, and 1 or -1
-//! inside, as the normals point outwards or inwards (the Jordan-Brouwer theorem).
+//! A closed surface whose polygons all go around alike gives each point a *winding number*: how
+//! often the surface goes around it. Crossing a polygon against its normal raises the number by 1,
+//! crossing it along its normal lowers it by 1. For a surface that does not intersect itself the
+//! number is 0 outside, and 1 or -1 inside, as the normals point outwards or inwards (the
+//! Jordan-Brouwer theorem).
 
 use super::apart::share_corners_alone;
 use super::bounds;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Pairs of boxes, and pairs of polygons, that are compared at most to show that a surface does not meet
-/// itself.
+/// Maximum number of pairs of boxes, and of polygons, that are compared to show that a surface does
+/// not intersect itself.
 const MOST_BOXES: usize = 1 << 26;
 const MOST_POLYGONS: usize = 1 << 22;
 
-/// Below this volume a surface encloses nothing, against the cube of its size.
+/// Minimum volume of a solid, relative to the cube of its size.
 const FLAT: f64 = 1e-12;
 
 /// Distance from a plane below which a corner lies on it.
 const ON_PLANE: f64 = 1e-12;
 
-/// The region that a closed surface encloses which does not meet itself.
+/// The region enclosed by a closed surface that does not intersect itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Solid {
     /// The corners of the box around it.
     pub(crate) low: DVec3,
     pub(crate) high: DVec3,
-    /// True if the normals point out of it, false if they all point into it.
+    /// True if the normals point out of the solid, false if they all point into it.
     pub(crate) outwards: bool,
 }
 
@@ -39,15 +40,16 @@ impl Solid {
     }
 }
 
-/// The solids that these polygons enclose; none unless they are closed surfaces, each connected by its
-/// edges, of which each is shown not to meet itself. Different ones may meet.
+/// Returns the solids that `polygons` enclose. `None` unless they are closed surfaces, each
+/// connected by its edges, and each is shown not to intersect itself. Different surfaces may
+/// intersect.
 pub(crate) fn solids(polygons: &[&[DVec3]]) -> Option<Vec<Solid>> {
     let groups = connected(polygons)?;
     groups.iter().map(|group| solid(group)).collect()
 }
 
-/// The polygons by connected surface; none unless each edge belongs to exactly two of them, which go
-/// along it in opposite directions.
+/// Groups the polygons by connected surface. `None` unless each edge belongs to exactly two of
+/// them, which go along it in opposite directions.
 fn connected<'a>(polygons: &[&'a [DVec3]]) -> Option<Vec<Vec<&'a [DVec3]>>> {
     // 0 and -0 are one coordinate.
     let key = |corner: DVec3| (corner + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -195,7 +197,8 @@ mod tests {
         faces.into_iter().map(turn).collect()
     }
 
-    /// A tube of square rings around the z axis, closed, whose middle has this radius.
+    /// Returns a closed tube with a square section around the z axis. `radius` is that of its
+    /// middle.
     fn torus(rings: usize, radius: f64) -> Vec<Vec<DVec3>> {
         let corner = |ring: usize, k: usize| {
             let (sin, cos) =

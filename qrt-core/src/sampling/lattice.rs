@@ -53,18 +53,18 @@ impl ProductLattice {
         })
     }
 
-    /// How many coordinates a point has.
+    /// Number of coordinates of a point.
     pub fn dimensions(&self) -> usize {
         self.fields.len()
     }
 
-    /// How many bits a path index has: the sum of all coordinates' bits.
+    /// Number of bits of a path index: the sum of all coordinates' bits.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// The bit of the coordinate's sample index that is bit `id_bit` of the path index, or 0 if
-    /// that is another coordinate's.
+    /// Returns the bit of the coordinate's sample index that bit `id_bit` of the path index sets,
+    /// or 0 if that bit belongs to another coordinate.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].

@@ -5,7 +5,7 @@
 //! The renderer walks through consecutive path indices, where linearity makes each index one XOR:
 //! `index(256 h + l) = index(256 h) XOR index(l)`, the right-hand index from a table.
 
-/// How many low bits of the path index the table covers.
+/// Number of low bits of the path index that the table covers.
 const BLOCK_BITS: u32 = 8;
 const BLOCK: usize = 1 << BLOCK_BITS;
 
@@ -18,7 +18,7 @@ pub(super) struct LinearMap {
 }
 
 impl LinearMap {
-    /// The map with these columns; bits of the path index beyond them flip nothing.
+    /// Creates the map with `columns`; bits of the path index beyond them flip nothing.
     pub(super) fn new(columns: impl IntoIterator<Item = u32>) -> Self {
         let columns: Box<[u32]> = columns.into_iter().collect();
         let mut block = Box::new([0; BLOCK]);

@@ -6,7 +6,7 @@
 //! `J = |dphi/du x dphi/dv|`,
 //!
 //! the solid angle that a unit of the square covers (the paper divides; the integral of the cosine
-//! over the hemisphere tells which is right: pi, not 0.0796). What a path needs is `|phi_z| J`.
+//! over the hemisphere shows that multiplying is right: pi, not 0.0796). A path needs `|phi_z| J`.
 //! On the unit sphere both partial derivatives are tangent, so their cross product is parallel to
 //! phi and its z component is `phi_z J`, up to sign. Hence
 //!
@@ -50,13 +50,14 @@ pub fn projected_jacobian(map: &[Expr; 3]) -> Expr {
     (&(&x_u * &y_v) - &(&x_v * &y_u)).abs().simplify()
 }
 
-/// The same by the square of the distance to the normal, `q = x^2 + y^2`, and the azimuth, `t = Y / X` with what
-/// `y / x` is without common factors:
+/// Returns the projected Jacobian by the square of the distance to the normal, `q = x^2 + y^2`, and
+/// the azimuth, whose tangent `y / x` is `Y / X` without common factors:
 ///
 /// `|phi_z| J = |q_u a_v - q_v a_u| / 2`, `a_u = (X Y_u - Y X_u) / (X^2 + Y^2)`.
 ///
-/// The radius, whose derivative has a pole at the normal of most maps, is in none of the factors. So a bound can be
-/// shown where it has a shape that depends on the azimuth, as that of an anisotropic lobe.
+/// The radius, whose derivative has a pole at the normal of most maps, is in none of the
+/// factors. So a bound can be proven even if the shape of the map depends on the azimuth, as for an
+/// anisotropic lobe.
 pub fn projected_jacobian_by_azimuth(map: &[Expr; 3]) -> Expr {
     let [x, y, _] = map;
     let square = (&x.powi(2) + &y.powi(2)).simplify();
@@ -158,13 +159,13 @@ mod tests {
             let phi = builtin(map);
             let length = |at: &Variables| phi.iter().map(|c| c.eval(at) * c.eval(at)).sum::<f64>();
             assert!(integral(|at| (length(at) - 1.0).abs()) < 1e-15);
-            // Their mean points along z: every azimuth is there as often as its opposite.
+            // Their mean points along z: every azimuth occurs as often as its opposite.
             for component in &phi[..2] {
                 assert!(integral(|at| component.eval(at)).abs() < 1e-15);
             }
         }
     }
-    /// Both forms are the same number, of lobes of any shape.
+    /// Checks that both forms are the same number, for lobes of any shape.
     #[test]
     fn the_azimuth_leads_to_the_same_jacobian() {
         for [a, b] in [[0.5, 0.5], [0.5, 0.2], [0.3, 0.02], [1.0, 0.7]] {

@@ -1,15 +1,15 @@
-//! Where a path's random numbers come from: sequences that map a path index to cells of the unit
-//! square, one square per ray.
+//! The source of a path's random numbers: sequences that map a path index to cells of the unit
+//! square, one square per ray and per point on a lamp.
 //!
 //! The integral over paths is the mean over `R = 2^path_bits` path indices. Ray `k` of path `id`
-//! takes its coordinates `(u, v)` from two dimensions of its own, after those of earlier rays and
-//! of the point on a lamp that its start is connected to, if there is one
-//! ([`Sampling::squares`]); each is the index of one of `2^bits` cells and stands for its centre
-//! ([`cell_centre`]). Both sequences are linear over GF(2), up to the pixel's shift:
+//! takes its coordinates `(u, v)` from two dimensions of its own, after those of earlier rays.
+//! Points on lamps have the dimensions after all rays ([`Sampling::squares`]). Each coordinate is
+//! the index of one of `2^bits` cells and stands for its centre ([`cell_centre`]). Both sequences
+//! are linear over GF(2), up to the pixel's shift:
 //!
 //! `index_d(id) = shift_d ^ XOR_b id_b column_d(b)`,
 //!
-//! bit 0 of path indices `id` and of sample indices being the least significant. So in a circuit
+//! where bit 0 of path indices `id` and of sample indices is the least significant. So in a circuit
 //! they cost CNOTs and Xs and not one Toffoli.
 //!
 //! * [`DigitalNet`]: every bit of the path index acts on every coordinate; the error falls almost
@@ -33,10 +33,10 @@ use crate::syntax;
 use linear::LinearMap;
 use std::fmt;
 
-/// Most bits of one coordinate's index.
+/// Maximum number of bits of one coordinate's index.
 pub const MAX_COORDINATE_BITS: u32 = 32;
 
-/// The sampling points of all paths of a pixel, as the scene's `sampling` block asks for them.
+/// The sampling points of all paths of a pixel, as the scene's `sampling` block defines them.
 ///
 /// ```
 /// use qrt_core::sampling::{Coordinate, PathPoints, cell_centre};
@@ -64,7 +64,7 @@ pub struct PathPoints {
     squares: Vec<Option<usize>>,
 }
 
-/// Which coordinate of a square.
+/// A coordinate of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// The first: the radial one of the built-in maps; to the right on the film.
@@ -78,9 +78,10 @@ pub enum Axis {
 pub struct Coordinate {
     /// The number of bounces before the ray that it belongs to: 0 for the primary ray.
     pub depth: usize,
-    /// What it samples: the ray, or the point on a lamp that the ray's start is connected to.
+    /// The square that it samples: of the ray, or of the point on a lamp to which the ray's start
+    /// is connected.
     pub square: Square,
-    /// Which of the two of its square it is.
+    /// The axis of the coordinate in its square.
     pub axis: Axis,
 }
 
@@ -100,8 +101,8 @@ impl Coordinate {
         Self::u(depth).of(Axis::V)
     }
 
-    /// The first coordinate of the point on a lamp that the start of the ray of this `depth` is
-    /// connected to.
+    /// The first coordinate of the point on a lamp to which the start of the ray of this `depth` is
+    /// connected.
     pub const fn light_u(depth: usize) -> Self {
         let (square, axis) = (Square::Light, Axis::U);
         Self {
@@ -111,7 +112,8 @@ impl Coordinate {
         }
     }
 
-    /// The dimension of the second coordinate of the point on a lamp that depth `depth` names.
+    /// The second coordinate of the point on a lamp to which the start of the ray of this `depth`
+    /// is connected.
     pub const fn light_v(depth: usize) -> Self {
         Self::light_u(depth).of(Axis::V)
     }
@@ -120,7 +122,8 @@ impl Coordinate {
         Self { axis, ..self }
     }
 
-    /// A number of its own, below `4 D`, whether or not the scene samples it.
+    /// Returns a number that is unique to the coordinate, below `4 D`, whether or not the scene
+    /// samples it.
     #[inline(always)]
     pub const fn slot(self) -> usize {
         4 * self.depth + 2 * self.square as usize + self.axis as usize
@@ -139,7 +142,7 @@ impl fmt::Display for Coordinate {
 }
 
 impl PathPoints {
-    /// The points that `sampling` asks for.
+    /// Creates the points that `sampling` defines.
     ///
     /// # Errors
     /// Sizes beyond the stated limits, or, for the product lattice, `path_bits` other than the sum
@@ -196,7 +199,7 @@ impl PathPoints {
     /// If the scene does not sample `coordinate`.
     pub fn dimension(&self, coordinate: Coordinate) -> usize {
         let square = self.squares[2 * coordinate.depth + coordinate.square as usize];
-        // The callers ask for what the scene has; nothing else has a dimension.
+        // Callers pass coordinates that the scene samples; no other has a dimension.
         #[allow(clippy::expect_used)]
         let first = square.expect("a coordinate that the scene samples");
         first + coordinate.axis as usize
@@ -221,17 +224,17 @@ impl PathPoints {
             .flatten()
     }
 
-    /// How many bits a path index has: path indices are `0 .. 2^path_bits`.
+    /// Number of bits of a path index: path indices are `0 .. 2^path_bits`.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// How many rays a path has: one more than its bounces.
+    /// Number of rays of a path: one more than its bounces.
     pub fn depths(&self) -> usize {
         self.depths
     }
 
-    /// Bits of the indices of a coordinate.
+    /// Number of bits of the indices of a coordinate.
     ///
     /// # Panics
     /// If the scene does not sample `coordinate`.
@@ -260,7 +263,7 @@ impl PathPoints {
         }
     }
 
-    /// Whether pixels shift their points.
+    /// True if pixels shift their points.
     pub fn shifts(&self) -> bool {
         self.sequence == Sequence::DigitalNet
     }
@@ -274,8 +277,8 @@ impl PathPoints {
         map.index(id) ^ net::top(shift, *bits) as u32
     }
 
-    /// The sample indices of a coordinate on the paths `first_id ..`, as many as `out` holds. One
-    /// XOR and one store per path, best for runs of 256 paths or more.
+    /// Writes the sample indices of a coordinate on the paths `first_id ..` to `out`, one per
+    /// element. It takes one XOR and one store per path, and is best for runs of 256 paths or more.
     ///
     /// # Panics
     /// If the scene does not sample `coordinate`.
@@ -296,7 +299,7 @@ pub fn cell_centre(index: u32, bits: u32) -> f64 {
     (f64::from(index) + 0.5) / (1u64 << bits.min(MAX_COORDINATE_BITS)) as f64
 }
 
-/// Why a sequence cannot be made.
+/// The reason that a sequence cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SamplingError {
     /// More coordinates than there are direction numbers.
@@ -314,7 +317,7 @@ pub enum SamplingError {
 }
 
 impl SamplingError {
-    /// What this says of the scene.
+    /// Converts the error to a problem of the scene.
     pub(crate) fn problem(self) -> syntax::Sampling {
         match self {
             Self::Dimensions { dimensions } => syntax::Sampling::Dimensions {
@@ -340,7 +343,7 @@ impl SamplingError {
 
 impl fmt::Display for SamplingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Not by way of all problems, whose words a caller may not need.
+        // Directly, not by way of all problems, whose words a caller may not need.
         self.problem().words().fmt(f)
     }
 }

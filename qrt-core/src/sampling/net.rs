@@ -6,9 +6,9 @@
 //!
 //! `V_i = a_1 V_(i-1) ^ ... ^ a_(s-1) V_(i-s+1) ^ V_(i-s) ^ (V_(i-s) >> s)` for `i > s`.
 //!
-//! Column `b` of the matrix, what bit `b` of the path index (bit 0 the least significant)
-//! contributes, is `V_(b+1)`. Path indices run in natural order, not in Gray code: point `id` here
-//! is point `n` of a generator in Gray code where `id = n ^ (n >> 1)`. Any first `2^m` points are a
+//! Column `b` of the matrix, the contribution of bit `b` of the path index, is `V_(b+1)`; bit 0 is
+//! the least significant. Path indices run in natural order, not in Gray code: point `id` here is
+//! point `n` of a generator in Gray code, with `id = n ^ (n >> 1)`. Any first `2^m` points are a
 //! (t, m, s)-net.
 //!
 //! The point is XORed with a [`pixel_shift`], so that neighbouring pixels err independently, and
@@ -19,7 +19,7 @@ use super::SamplingError;
 use super::joe_kuo::INITIAL;
 use crate::scene::MAX_PATH_BITS;
 
-/// Most dimensions of a net: two per ray, so paths of up to 64 rays.
+/// Maximum number of dimensions of a net: two per ray, so paths of up to 64 rays.
 pub const MAX_DIMENSIONS: usize = INITIAL.len() + 1;
 
 /// A Sobol' net of `2^path_bits` points.
@@ -65,18 +65,18 @@ impl DigitalNet {
         })
     }
 
-    /// How many coordinates a point has.
+    /// Number of coordinates of a point.
     pub fn dimensions(&self) -> usize {
         self.dimensions
     }
 
-    /// How many bits a path index has.
+    /// Number of bits of a path index.
     pub fn path_bits(&self) -> u32 {
         self.path_bits
     }
 
-    /// What bit `id_bit` of the path index flips in the coordinate, a fraction aligned to bit 63; 0
-    /// for bits beyond `path_bits`.
+    /// Returns the bits of the coordinate that bit `id_bit` of the path index flips, as a fraction
+    /// aligned to bit 63; 0 for bits beyond `path_bits`.
     ///
     /// # Panics
     /// If `dimension` is not below [`Self::dimensions`].
@@ -134,8 +134,9 @@ fn direction_numbers(dimension: usize, count: u32) -> Vec<u64> {
 /// uniform. `x` counts from the left, `y` from the top.
 ///
 /// It is output number `dimension` of the SplitMix64 generator (Steele, Lea & Flood 2014) whose
-/// state is `first(first(seed) ^ (y << 32 | x))`, `first(s)` the first output from state `s`. Part
-/// of what a seed promises: it does not change between versions, machines or thread counts.
+/// state is `first(first(seed) ^ (y << 32 | x))`, where `first(s)` is the first output from state
+/// `s`. It is part of the guarantee of a seed: it does not change between versions, machines or
+/// thread counts.
 pub fn pixel_shift(seed: u64, x: u32, y: u32, dimension: usize) -> u64 {
     let pixel = u64::from(y) << 32 | u64::from(x);
     split_mix(split_mix(split_mix(seed, 0) ^ pixel, 0), dimension as u64)

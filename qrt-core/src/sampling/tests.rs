@@ -38,7 +38,8 @@ fn of_ray(depth: usize, axis: usize) -> Coordinate {
     [Coordinate::u(depth), Coordinate::v(depth)][axis]
 }
 
-/// Film, ray, ray, lamp, lamp: beside lamps rays have the dimensions that they have without.
+/// Checks the order film, ray, ray, lamp, lamp: rays have the same dimensions with and without
+/// lamps.
 #[test]
 fn points_on_lamps_have_the_dimensions_after_all_rays() {
     let mut written = sampling(Sequence::DigitalNet, 8, &[[8, 8]; 3]);

@@ -48,7 +48,8 @@ impl Basis {
         DVec2::new(self.half * aspect, self.half)
     }
 
-    /// Returns a point to the right of the eye, above it, and before it.
+    /// Returns the coordinates of `point` in the camera's frame: right of the eye, above it, and
+    /// before it.
     pub(crate) fn coordinates(&self, point: DVec3) -> DVec3 {
         let v = point - self.eye;
         DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))

@@ -7,7 +7,8 @@ use super::{
 use glam::DVec3;
 
 impl Default for Perspective {
-    /// From (0, 0, 5) to the origin, up along y, 45 degrees high.
+    /// Looks from (0, 0, 5) to the origin, with up along y and a vertical field of view of 45
+    /// degrees.
     fn default() -> Self {
         Self {
             eye: DVec3::new(0.0, 0.0, 5.0),
@@ -19,7 +20,7 @@ impl Default for Perspective {
 }
 
 impl Default for Orthographic {
-    /// From (0, 0, 5) to the origin, up along y, 4 scene units high.
+    /// Looks from (0, 0, 5) to the origin, with up along y and a film 4 scene units high.
     fn default() -> Self {
         Self {
             eye: DVec3::new(0.0, 0.0, 5.0),
@@ -31,7 +32,7 @@ impl Default for Orthographic {
 }
 
 impl Default for Camera {
-    /// [`Perspective::default`]
+    /// Returns [`Perspective::default`].
     fn default() -> Self {
         Self::Perspective(Perspective::default())
     }
@@ -48,14 +49,15 @@ impl Default for Film {
 }
 
 impl Default for DepthSampling {
-    /// [`DepthSampling::of_bits`] of 8 bits each, as where a scene says nothing.
+    /// Returns [`DepthSampling::of_bits`] with 8 bits each, the default of a scene.
     fn default() -> Self {
         Self::of_bits([8, 8])
     }
 }
 
 impl Default for Mesh {
-    /// A mesh of its own size, at its own place, in its own materials; its file is still to be named.
+    /// Creates a mesh without a transform, with its own materials. Its file name is empty and must
+    /// be set.
     fn default() -> Self {
         Self {
             obj: String::new(),
@@ -68,8 +70,7 @@ impl Default for Mesh {
 }
 
 impl Default for Scene {
-    /// Nothing, seen by the default camera on the default film: what a scene begins with that is
-    /// written in Rust.
+    /// Creates an empty scene with the default camera and film, to start a scene in Rust from.
     fn default() -> Self {
         Self {
             name: "scene".to_owned(),
@@ -94,10 +95,10 @@ impl Default for Scene {
 pub struct SceneBuilder(Scene);
 
 impl Scene {
-    /// Begins a scene of that name, in which all that is not said has its default.
+    /// Begins a scene called `name`, in which everything that is not set has its default.
     ///
-    /// A [`Scene`] is plain data: what a builder has made can be changed, field by field, and built
-    /// upon ([`SceneBuilder::from`]). Nothing is checked before [`Scene::validate`].
+    /// A [`Scene`] is plain data: its fields can be changed after building, and a builder can start
+    /// from a scene ([`SceneBuilder::from`]). Nothing is checked before [`Scene::validate`].
     ///
     /// ```
     /// use qrt_core::scene::{DepthSampling, Emitter, Lambertian, Perspective, Sampling, Scene};
@@ -134,33 +135,33 @@ impl Scene {
 }
 
 impl std::fmt::Display for Scene {
-    /// The scene as YAML: [`Scene::to_yaml`].
+    /// Writes the scene as YAML: [`Scene::to_yaml`].
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.to_yaml())
     }
 }
 
 impl From<Scene> for SceneBuilder {
-    /// Goes on with a scene.
+    /// Continues building from `scene`.
     fn from(scene: Scene) -> Self {
         Self(scene)
     }
 }
 
 impl SceneBuilder {
-    /// Where the scene is seen from: a [`Perspective`] or an [`Orthographic`].
+    /// Sets the camera: a [`Perspective`] or an [`Orthographic`].
     pub fn camera(mut self, camera: impl Into<Camera>) -> Self {
         self.0.camera = camera.into();
         self
     }
 
-    /// The size of the picture in pixels.
+    /// Sets the size of the picture in pixels.
     pub fn film(mut self, width: u32, height: u32) -> Self {
         self.0.film = Film { width, height };
         self
     }
 
-    /// Adds a material of that name, or takes the place of one that has the name.
+    /// Adds a material called `name`, or replaces the one of that name.
     pub fn material(mut self, name: &str, material: impl Into<Material>) -> Self {
         let material = material.into();
         let materials = &mut self.0.materials;
@@ -193,25 +194,26 @@ impl SceneBuilder {
         })
     }
 
-    /// The paths of a pixel.
+    /// Sets the paths of a pixel.
     pub fn sampling(mut self, sampling: Sampling) -> Self {
         self.0.sampling = sampling;
         self
     }
 
-    /// As many rays on each path, each of 8 bits a coordinate, by each material's own map.
+    /// Sets the number of rays on each path, each with 8 bits per coordinate and each material's
+    /// own map.
     pub fn depth(mut self, rays: usize) -> Self {
         self.0.sampling.depths = vec![DepthSampling::default(); rays];
         self
     }
 
-    /// R = 2^`path_bits` paths of a pixel.
+    /// Sets the number of paths of a pixel to R = 2^`path_bits`.
     pub fn path_bits(mut self, path_bits: u32) -> Self {
         self.0.sampling.path_bits = path_bits;
         self
     }
 
-    /// The map of all rays but the primary one.
+    /// Sets the map of all rays but the primary one.
     pub fn map(mut self, map: Map) -> Self {
         for depth in self.0.sampling.depths.iter_mut().skip(1) {
             depth.map = map;
@@ -219,43 +221,43 @@ impl SceneBuilder {
         self
     }
 
-    /// Bits behind the point of the circuit's numbers.
+    /// Sets the number of fraction bits of the circuit's numbers.
     pub fn fraction(mut self, bits: u32) -> Self {
         self.0.precision.fraction = Some(bits);
         self
     }
 
-    /// The comparator register.
+    /// Sets the comparator register.
     pub fn comparator(mut self, comparator: Comparator) -> Self {
         self.0.comparator = comparator;
         self
     }
 
-    /// How the good ids are counted.
+    /// Sets the method of counting the good path indices.
     pub fn counting(mut self, counting: Counting) -> Self {
         self.0.counting = counting;
         self
     }
 
-    /// How the circuit is laid out.
+    /// Sets the layout of the circuit.
     pub fn circuit(mut self, circuit: Circuit) -> Self {
         self.0.circuit = circuit;
         self
     }
 
-    /// The accuracy that is asked for, in place of path bits, precision, comparator and counting.
+    /// Sets the required accuracy, which replaces path bits, precision, comparator and counting.
     pub fn accuracy(mut self, accuracy: Accuracy) -> Self {
         self.0.accuracy = Some(accuracy);
         self
     }
 
-    /// Limits on the circuit's cost.
+    /// Sets limits on the circuit's cost.
     pub fn budget(mut self, budget: Budget) -> Self {
         self.0.budget = Some(budget);
         self
     }
 
-    /// The scene, not checked yet: see [`Scene::validate`].
+    /// Returns the scene, not yet checked: see [`Scene::validate`].
     pub fn build(self) -> Scene {
         self.0
     }

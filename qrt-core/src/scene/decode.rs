@@ -1,5 +1,5 @@
-//! From a tree to typed data, with every error: a faulty value is reported, marked, and replaced by
-//! a harmless one, so that the rest is still read and checked.
+//! Decodes a tree to typed data, with every error: a faulty value is reported, marked, and replaced
+//! by a harmless one, so that the rest is still read and checked.
 
 use crate::syntax::tree::{Node, Value};
 use crate::syntax::{Expected, Place, Problems, Structure, nearest};
@@ -9,12 +9,13 @@ use crate::syntax::{Expected, Place, Problems, Structure, nearest};
 pub(crate) struct Field {
     /// The key.
     pub(crate) name: &'static str,
-    /// Whether it must be written.
+    /// True if the key is required.
     pub(crate) required: bool,
 }
 
 impl Problems {
-    /// Reports that `node` is not what is expected, unless it is known to be wrong.
+    /// Reports that `node` is not what is expected, unless it could not be read: then it is
+    /// reported already.
     pub(crate) fn wrong_type(&mut self, node: &Node, at: &Place<'_>, expected: Expected) {
         if node.value == Value::Unread {
             return self.mark(at.path());
@@ -23,7 +24,8 @@ impl Problems {
         self.refuse(at, Structure::WrongType { expected, found });
     }
 
-    /// Whether `node` is a map; reports what it has beyond `fields` and what it lacks of them.
+    /// Returns whether `node` is a map. Reports keys that are not in `fields`, and required keys
+    /// that are missing.
     pub(crate) fn record(
         &mut self,
         node: &Node,
@@ -58,7 +60,7 @@ impl Problems {
         true
     }
 
-    /// The single entry of a variant, known by `kinds`; reports anything else.
+    /// Returns the single entry of a variant, whose key is in `kinds`; reports anything else.
     pub(crate) fn variant<'n>(
         &mut self,
         node: &'n Node,
@@ -103,7 +105,7 @@ impl Problems {
         known.map(|entry| (entry.key.as_str(), &entry.value))
     }
 
-    /// The index in `words` of the word that `node` is; reports anything else.
+    /// Returns the index of `node`'s word in `words`; reports anything else.
     pub(crate) fn word(
         &mut self,
         node: &Node,

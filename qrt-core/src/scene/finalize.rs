@@ -1,12 +1,13 @@
-//! Last steps of reading that concern several keys at once, or what was written at all.
+//! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
 use super::shape::{Expression, Shape, is_auto};
 use super::{Data, Jacobian, Lights, Sampling, Scene, Sequence, Square};
 use crate::syntax::tree::Node;
 use crate::syntax::{Path, Place, Problem, Problems};
 
-/// Under the product lattice, `path_bits` is the sum of all bits if it is not written. A sum
-/// beyond the range is reported for the bits, not for what nobody wrote.
+/// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The
+/// sum is clamped to the range, so that too large a sum is reported for the bits, not for a key
+/// that is not written.
 pub(super) fn path_bits(
     mut sampling: Sampling,
     node: &Node,
@@ -27,16 +28,17 @@ impl Sampling {
         bits.fold(0, u32::saturating_add)
     }
 
-    /// The bits of the point on a lamp that the surface is connected to which the ray of `depth`
-    /// leaves; none where no lamp is sampled.
+    /// Returns the bits of the point on a lamp that is connected to the start of the ray of
+    /// `depth`; `None` if no lamp is sampled there.
     pub fn light(&self, depth: usize) -> Option<[u32; 2]> {
         let light = self.depths.get(depth)?.light;
         light.filter(|_| self.lights != Lights::None && depth > 0)
     }
 
-    /// The squares that a path samples, in the order of a sequence's dimensions, each with its depth
-    /// and its bits: those of all rays, and then the points on lamps. So rays have the dimensions that
-    /// they have without lamps: light that only they find is sampled no worse for being beside lamps.
+    /// Iterates over the squares that a path samples, each with its depth and bits, in the order of
+    /// a sequence's dimensions: all rays, and then the points on lamps. So rays have the same
+    /// dimensions with and without lamps, and light that only rays find is sampled no worse because
+    /// of lamps.
     pub fn squares(&self) -> impl Iterator<Item = (usize, Square, [u32; 2])> + '_ {
         let rays = self.depths.iter().enumerate();
         let rays = rays.map(|(depth, sampling)| (depth, Square::Ray, sampling.bits));
@@ -46,7 +48,7 @@ impl Sampling {
     }
 }
 
-/// `accuracy` replaces parameters: none of them may be written beside it.
+/// Reports parameters that are written beside `accuracy`, which replaces them.
 pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Scene {
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
@@ -62,7 +64,7 @@ pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Pr
     scene
 }
 
-/// The problem of `key`, in the record at `path`, beside `accuracy`.
+/// Returns the problem of `key`, in the record at `path`, beside `accuracy`.
 pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
     let problem = Problem::new(
         path.name(key),
@@ -71,7 +73,7 @@ pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
     problem.also(Path::root().name("accuracy"))
 }
 
-/// `auto`, or an expression.
+/// The shape of a Jacobian: `auto`, or an expression.
 pub(super) struct JacobianShape;
 
 impl Shape for JacobianShape {

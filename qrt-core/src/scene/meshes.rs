@@ -1,4 +1,4 @@
-//! What the mesh files of a scene hold, as plain data. The front end reads them
+//! The contents of a scene's mesh files, as plain data. The front end reads them
 //! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
 
 use super::{Mesh, Rgb};
@@ -9,18 +9,19 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The meshes of a scene, or why they cannot be read. Entries that name one file share its mesh, and
-/// so do copies of this.
+/// The meshes of a scene, or the errors of files that cannot be read. Entries that name the same
+/// file share its mesh, and so do clones of this value.
 #[derive(Clone, Debug)]
 pub struct Meshes {
     read: BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>,
     most_faces: usize,
 }
 
-/// As many triangles a scene's meshes may have, each time they are placed, unless memory allows fewer.
+/// Maximum number of triangles of a scene's meshes, each placement counted, unless memory allows
+/// fewer.
 pub const MOST_FACES: usize = 1 << 22;
 
-/// A file as the scene calls it, and whether its own materials are wanted.
+/// A file name as the scene writes it, and true if the file's own materials are read.
 type Key = (String, bool);
 
 impl Default for Meshes {
@@ -30,21 +31,21 @@ impl Default for Meshes {
 }
 
 impl Meshes {
-    /// None yet, of a scene that may have so many faces.
+    /// Creates an empty set of meshes, for a scene of at most `most_faces` faces.
     pub fn of_most(most_faces: usize) -> Self {
         let read = BTreeMap::new();
         Self { read, most_faces }
     }
 
-    /// As many faces the scene may have with them.
+    /// Maximum number of faces of the scene, meshes included.
     pub fn most_faces(&self) -> usize {
         self.most_faces
     }
 
-    /// What an entry of the scene places.
+    /// Returns the mesh that the entry `mesh` of the scene places.
     ///
     /// # Errors
-    /// What is wrong with its file, or that nobody read it.
+    /// The error of its file, or [`MeshFile::NotRead`] if the file was not read.
     pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
         let key = (mesh.obj.clone(), mesh.material.is_none());
         let Some(read) = self.read.get(&key) else {
@@ -54,7 +55,8 @@ impl Meshes {
         read.as_deref().map_err(ObjError::clone)
     }
 
-    /// Adds the file that a scene calls `obj`, read with its own materials or without.
+    /// Adds the result of reading the file that a scene names `obj`, with its own materials or
+    /// without.
     pub fn insert(&mut self, obj: &str, own_materials: bool, read: Result<ObjMesh, ObjError>) {
         let key = (obj.to_owned(), own_materials);
         self.read.insert(key, read.map(Arc::new));
@@ -64,11 +66,11 @@ impl Meshes {
 /// A mesh as it is in its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjMesh {
-    /// Triangles in the order of the file; a polygon is several.
+    /// Triangles in the order of the file; a polygon becomes several.
     pub faces: Vec<ObjFace>,
     /// The materials of all its libraries; empty if they were not wanted.
     pub materials: Vec<ObjMaterial>,
-    /// What was read: the file itself, then its libraries.
+    /// The files that were read: the OBJ file itself, then its libraries.
     pub files: Vec<PathBuf>,
 }
 
@@ -93,25 +95,25 @@ pub struct ObjMaterial {
     pub albedo: Rgb,
 }
 
-/// What is wrong with a file; codes are `QRT0320` to `QRT0344`.
+/// An error of a mesh file; codes are `QRT0319` to `QRT0344`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjError {
-    /// What is wrong.
+    /// The problem.
     pub what: MeshFile,
     /// The file: the OBJ itself or one of its libraries.
     pub file: PathBuf,
-    /// The line of the file, counted from 1; `None` if the error is of no single line.
+    /// The line of the file, counted from 1; `None` if the error concerns no single line.
     pub line: Option<usize>,
 }
 
 impl ObjError {
-    /// An error in this file, at this line if it is of one.
+    /// Creates an error in `file`, at `line` if it concerns one.
     pub(crate) fn new(what: MeshFile, file: &Path, line: impl Into<Option<usize>>) -> Self {
         let (file, line) = (file.to_owned(), line.into());
         Self { what, file, line }
     }
 
-    /// As a problem of the scene that names the file.
+    /// Converts the error to a problem of the scene that names the file.
     pub(crate) fn problem(self) -> What {
         let place = self.line.map_or_else(String::new, |line| {
             format!("{}:{line}", self.file.display())

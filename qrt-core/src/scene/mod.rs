@@ -34,7 +34,8 @@ use uncompute::UncomputeShape;
 pub(crate) use uncompute::{Again, PARTS};
 pub use uncompute::{Uncompute, UncomputedParts};
 
-/// Most bits of a path index. Path counts up to `2^52` and their sums stay exact in f64.
+/// Maximum number of bits of a path index. Path counts up to `2^52` and their sums stay exact in
+/// f64.
 pub const MAX_PATH_BITS: u32 = 52;
 
 /// Linear RGB.
@@ -50,14 +51,13 @@ record! {
     /// A scene of qrt: what is seen, and how its circuit traces and counts it.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Scene = "the scene", finalize = finalize::scene;
-    /// What the scene is called. A picture's metadata repeat it.
+    /// The scene's name. A picture's metadata repeat it.
     pub name: String = Text;
-    /// Where the scene is seen from. Right-handed: right is forward x up, film rows go from the
-    /// top.
+    /// The camera. Right-handed: right is forward x up, film rows go from the top.
     pub camera: Camera = part::<Camera>();
     /// The size of the picture.
     pub film: Film = part::<Film>();
-    /// What surfaces do to light: materials by names of your own.
+    /// The materials, by names of your own: what surfaces do to light.
     pub materials: Vec<(String, Material)> = Named(part::<Material>());
     /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
     pub geometry: Vec<Geometry> = List {
@@ -69,9 +69,9 @@ record! {
     pub precision: Precision = part::<Precision>(), or Precision::default();
     /// The comparator register.
     pub comparator: Comparator = part::<Comparator>(), or Comparator::default();
-    /// How the good indices are counted.
+    /// The counting of the good indices.
     pub counting: Counting = part::<Counting>(), or Counting::default();
-    /// How the circuit is laid out.
+    /// The layout of the circuit.
     pub circuit: Circuit = part::<Circuit>(), or Circuit::default();
     /// Asked accuracy, instead of path_bits, precision, comparator and counting.
     pub accuracy: Option<Accuracy> = Maybe(part::<Accuracy>()), or None;
@@ -128,7 +128,7 @@ record! {
 }
 
 variant! {
-    /// What a surface does to light.
+    /// The effect of a surface on light.
     #[derive(Clone, Debug, PartialEq)]
     pub enum Material = "a material";
     /// Matte, on both sides: albedo / pi.
@@ -160,7 +160,7 @@ record! {
     /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian on both sides.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Emitter = "an emitter";
-    /// What leaves the front, in linear RGB. The picture's values have the same unit.
+    /// The radiance that leaves the front, in linear RGB. The picture's values have the same unit.
     pub radiance: Rgb = RADIANCE;
     /// The share of light that is reflected, in linear RGB; default black.
     pub albedo: Rgb = REFLECTANCE, or [0.0; 3];
@@ -222,7 +222,7 @@ record! {
     pub pdf: Option<String> = Maybe(Expression), or None;
 }
 
-/// Where a map's Jacobian comes from.
+/// The source of a map's Jacobian.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Jacobian {
     /// `|dphi/du x dphi/dv|`, differentiated symbolically.
@@ -283,7 +283,7 @@ record! {
     /// The paths of a pixel.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Sampling = "sampling", finalize = finalize::path_bits;
-    /// How path indices become points.
+    /// The sequence that turns path indices into points.
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
@@ -292,13 +292,13 @@ record! {
     pub depths: Vec<DepthSampling> = List {
         item: part::<DepthSampling>(), least: 1
     }, or vec![DepthSampling::of_bits([8, 8]); 3];
-    /// How lamps are sampled at the depths that have `light` bits.
+    /// The sampling of lamps at the depths that have `light` bits.
     pub lights: Lights = word::<Lights>(), or Lights::Auto;
 }
 
 keyword! {
-    /// How a vertex's light is sampled, where its surface reflects to more than single directions
-    /// and tells how densely. The mean is the same.
+    /// The sampling of light at a vertex whose surface reflects to more than single directions and
+    /// has a known density. The mean is the same for all.
     pub enum Lights = "a way to sample lights";
     /// `next-event` on surfaces where no lamp can weigh more than 1, by interval arithmetic over
     /// surface and lamp; `mis` elsewhere.
@@ -314,7 +314,7 @@ keyword! {
 }
 
 keyword! {
-    /// How path indices become points.
+    /// The sequence that turns path indices into points.
     pub enum Sequence = "a sequence";
     /// One digital net over all coordinates, shifted per pixel.
     DigitalNet = "digital-net";
@@ -336,14 +336,14 @@ record! {
 }
 
 impl DepthSampling {
-    /// A ray of so many bits, by each material's own map.
+    /// Creates the sampling of a ray with `bits` per coordinate and each material's own map.
     pub const fn of_bits(bits: [u32; 2]) -> Self {
         let (map, light) = (Map::Auto, None);
         Self { bits, map, light }
     }
 }
 
-/// What a unit square of sample coordinates is for.
+/// The use of a unit square of sample coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Square {
     /// A ray's direction, or the primary ray's place on the pixel.
@@ -377,12 +377,12 @@ record! {
     pub struct Comparator = "the comparator";
     /// Its qubits, c: a colour is compared with 2^c thresholds; default 10.
     pub bits: u32 = whole::<u32>(1, 30), or 10;
-    /// Where the comparators stand, with h = scale / 2^bits.
+    /// The positions of the comparators, with h = scale / 2^bits.
     pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
 }
 
 keyword! {
-    /// Where the comparators stand, with h = scale / 2^bits.
+    /// The positions of the comparators, with h = scale / 2^bits.
     pub enum ComparatorAt = "a comparator position";
     /// At (y + 1/2) h.
     Midpoints = "midpoints";
@@ -391,18 +391,18 @@ keyword! {
 }
 
 record! {
-    /// How the good indices are counted.
+    /// The counting of the good indices.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Counting = "counting";
     /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
-    /// without a phase register may spend as many as B runs.
+    /// without a phase register may spend up to B (T - 1).
     pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
     /// B, the number of runs; default 1.
     pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
     /// The window on the phase register of `posterior-mean`; `paper` and `qss` count with the
     /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
-    /// How measurements become an amplitude.
+    /// The estimator that turns measurements into an amplitude.
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
     /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
     /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
@@ -416,15 +416,15 @@ record! {
 }
 
 impl Counting {
-    /// Whether strata of the comparator may be counted one by one.
+    /// True if strata of the comparator may be counted one by one.
     pub fn may_count_strata(&self) -> bool {
         self.estimator.counts_strata() && self.strata != Some(1)
     }
 }
 
 impl Estimator {
-    /// Whether it can count the strata of the comparator one by one: it must know after every shot
-    /// how far each of them is known, and go on with any.
+    /// True if the estimator can count the strata of the comparator one by one. This requires that
+    /// after every shot it knows the accuracy of each stratum, and can continue with any of them.
     pub const fn counts_strata(self) -> bool {
         match self {
             Self::AdaptiveBayes | Self::RandomDepth => true,
@@ -443,7 +443,8 @@ impl Estimator {
         }
     }
 
-    /// Whether it reads a phase register: it runs the circuit of quantum counting, again and again.
+    /// True if the estimator reads a phase register: it repeatedly runs the circuit of quantum
+    /// counting.
     pub const fn has_register(self) -> bool {
         match self {
             Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss => true,
@@ -460,13 +461,14 @@ impl Estimator {
         }
     }
 
-    /// Whether it looks at what is known after every shot, and may end: `exact` makes none.
+    /// True if the estimator can stop after any shot, by what it knows so far. `exact` makes no
+    /// shots.
     pub const fn stops_itself(self) -> bool {
         !self.has_register() && !matches!(self, Self::Exact)
     }
 
-    /// The window in which the phase register is prepared: that of `paper`, `qss` and `sine`, which
-    /// have one of their own, and `asked`, the scene's `counting.window`, for all others.
+    /// Returns the window in which the phase register is prepared. `paper`, `qss` and `sine` have a
+    /// window of their own; all others use `asked`, the scene's `counting.window`.
     pub fn register_window(self, asked: Window) -> Window {
         match self {
             Self::Paper | Self::Qss => Window::Rect,
@@ -487,7 +489,7 @@ impl shape::Keyword for Window {
 }
 
 keyword! {
-    /// How the amplitude is estimated.
+    /// The estimator of the amplitude.
     pub enum Estimator = "an estimator";
     /// The amplitude itself.
     Exact = "exact";
@@ -520,20 +522,20 @@ keyword! {
 }
 
 record! {
-    /// How the circuit is laid out.
+    /// The layout of the circuit.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Circuit = "the circuit";
-    /// When work registers are uncomputed. Parts that are uncomputed early may be listed, with hyphens between
+    /// The uncompute strategy of work registers. Parts that are uncomputed early may be listed, with hyphens between
     /// them: `plane`, `body`, `search`, `ray`, `shading` and `component` of the tracer; the garbage of
     /// `tables`, `products` and `quotients`; and `recompute`, which computes cheap values at each use instead
     /// of keeping them, or `rerun`, which also runs again what these are computed from.
     pub uncompute: Uncompute = UncomputeShape, or Uncompute::Keep;
-    /// How the nearest intersection is kept.
+    /// The way to keep the nearest intersection.
     pub nearest: Nearest = word::<Nearest>(), or Nearest::Running;
 }
 
 keyword! {
-    /// How the nearest intersection is kept.
+    /// The way to keep the nearest intersection.
     pub enum Nearest = "a way to keep the nearest hit";
     /// One record, and a flag per primitive.
     Running = "running";
@@ -555,13 +557,13 @@ record! {
     /// Limits on the circuit's cost; beyond them, an error.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Budget = "the budget";
-    /// At most so many qubits at a time.
+    /// Maximum number of qubits at a time.
     pub qubits: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
-    /// At most so many Toffoli gates in one call of the oracle.
+    /// Maximum number of Toffoli gates in one call of the oracle.
     pub toffoli: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
 }
 
-/// A block whose keys may all be left out.
+/// Returns a block with all keys left out, so that each has its default.
 fn of_defaults<T: Part>() -> T {
     let node = Node {
         span: Span::default(),
@@ -582,7 +584,7 @@ macro_rules! defaults {
 defaults!(Sampling, Precision, Comparator, Counting, Circuit);
 
 impl Scene {
-    /// The scene as data: what it prints from.
+    /// Encodes the scene as data, from which it is printed.
     pub fn encode(&self) -> Data {
         let mut data = Part::encode(self);
         if self.accuracy.is_some() {
@@ -601,14 +603,15 @@ impl Scene {
         data
     }
 
-    /// The scene as YAML, every default written out. Read back, a valid scene is the same scene.
+    /// Returns the scene as YAML, with every default written out. A valid scene survives the round
+    /// trip.
     pub fn to_yaml(&self) -> String {
         self.encode().to_yaml()
     }
 
-    /// FNV-1a, 128 bits, of the scene's canonical text with every default written out: equal for
-    /// equal scenes, however they were written. Meshes count by the names of their files;
-    /// [`crate::valid::ValidScene::fingerprint`] adds their contents.
+    /// Returns the 128-bit FNV-1a hash of the scene's canonical text, with every default written
+    /// out. Equal scenes have equal fingerprints, however they were written. Meshes count by the
+    /// names of their files; [`crate::valid::ValidScene::fingerprint`] adds their contents.
     pub fn fingerprint(&self) -> Fingerprint {
         Fingerprint::EMPTY.and(self.encode().canonical().as_bytes())
     }

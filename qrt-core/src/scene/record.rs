@@ -1,8 +1,9 @@
-//! One definition of each part of a scene: the Rust type, how it is read, its defaults, its ranges,
-//! how it is written back and what the JSON Schema says of it.
+//! Macros that define each part of a scene once: the Rust type, its decoder, its defaults, its
+//! ranges, its encoder and its JSON Schema.
 
-/// A map of known keys. `field: Type = shape;` must be written; `field: Type = shape, or default;`
-/// may be left out. `finalize = f` names a last step after reading, with the node at hand.
+/// Defines a record: a map of known keys. A key `field: Type = shape;` is required; a key
+/// `field: Type = shape, or default;` is optional. `finalize = f` names a function that is called
+/// after reading, with the value and its node.
 macro_rules! record {
     (
         $(#[doc = $doc:literal])*
@@ -101,7 +102,7 @@ macro_rules! record {
     }};
 }
 
-/// A map with exactly one of the keys, each leading to a part.
+/// Defines a variant: a map with exactly one of the keys, each with a part as its value.
 macro_rules! variant {
     (
         $(#[doc = $doc:literal])*
@@ -150,7 +151,7 @@ macro_rules! variant {
 
             #[allow(unreachable_code)]
             fn fallback() -> Self {
-                // The first kind stands for all.
+                // The first kind is the fallback.
                 $( return Self::$kind($crate::scene::shape::Part::fallback()); )*
             }
 
@@ -188,7 +189,7 @@ macro_rules! variant {
     };
 }
 
-/// One of several words.
+/// Defines a keyword: one of several words.
 macro_rules! keyword {
     (
         $(#[doc = $doc:literal])*

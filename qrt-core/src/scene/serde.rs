@@ -1,8 +1,8 @@
-//! Scenes and their parts for serde: the keys and shapes that they have in YAML.
+//! Serde support for scenes and their parts, with the keys and shapes that they have in YAML.
 //!
-//! They are written by the printer that YAML is written by, and read by the decoder that YAML is
-//! read by. So the two formats can't differ, and an error has a scene's code and the path to what is
-//! wrong. What serde does not know of is the place in the text; the front end of YAML does.
+//! Serialization uses the encoder of YAML, and deserialization its decoder, so the two formats
+//! cannot differ. An error has a scene's code and the path to the problem. It has no place in the
+//! text: serde does not know it, unlike the front end of YAML.
 
 use super::shape::Part;
 use super::text::Data;
@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 impl Serialize for Data {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        /// Every whole number up to it is an f64.
+        /// Largest magnitude up to which every whole number is exact in `f64`.
         const MOST: f64 = (1_u64 << 53) as f64;
         match self {
-            // Not -0.
+            // The comparison of bits excludes -0.
             Self::Number(value)
                 if value.abs() <= MOST && (*value as i64 as f64).to_bits() == value.to_bits() =>
             {
@@ -46,7 +46,7 @@ impl Serialize for Data {
     }
 }
 
-/// What was read, as the tree that all front ends make.
+/// A deserialized value, as the tree that all front ends build.
 struct Read(Value);
 
 impl From<Read> for Node {
@@ -131,8 +131,8 @@ impl<'de> Visitor<'de> for Reader {
 /// Reads a part, and checks the range of each of its values.
 ///
 /// # Errors
-/// What is no data that a scene is made of; all that is wrong with the part, as [`InvalidScene`]
-/// shows it.
+/// Data of a type that scenes do not have, or all problems of the part, as [`InvalidScene`] shows
+/// them.
 pub(super) fn read<'de, T: Part, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     let node: Node = Read::deserialize(deserializer)?.into();
     let mut problems = Problems::default();
@@ -142,7 +142,7 @@ pub(super) fn read<'de, T: Part, D: Deserializer<'de>>(deserializer: D) -> Resul
     problems.result(part).map_err(refused)
 }
 
-/// Both directions of a part.
+/// Implements both directions for a part.
 macro_rules! part {
     ($name:ident) => {
         impl serde_core::Serialize for $name {

@@ -1,5 +1,5 @@
-//! The shapes that values of a scene have. A shape is one definition of how a value is read, what
-//! range it has, how it is written and what the JSON Schema says of it.
+//! The shapes of a scene's values. A shape defines once how a value is read, its range, how it is
+//! written, and its JSON Schema.
 
 mod collections;
 mod described;
@@ -12,23 +12,23 @@ use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Datum, Expected, Place, Problems, Range};
 use std::marker::PhantomData;
 
-/// How a value is read, checked, written and described.
+/// The definition of how a value is read, checked, written and described.
 pub(crate) trait Shape {
     /// The value's type.
     type Value;
-    /// Reads it; a faulty one is reported and replaced.
+    /// Reads a value. Reports a faulty one and replaces it.
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value;
-    /// Stands for a faulty value; within its range.
+    /// Returns a value in range, which replaces a faulty one.
     fn fallback(&self) -> Self::Value;
-    /// Reports what is out of range.
+    /// Reports values that are out of range.
     fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems);
-    /// Writes it; `None` leaves the key out.
+    /// Writes a value; `None` leaves the key out.
     fn encode(&self, value: &Self::Value) -> Option<Data>;
     /// The shape's JSON Schema, draft-07.
     fn schema(&self) -> Data;
 }
 
-/// What is defined by `record!` or `variant!`: a shape that its type alone determines.
+/// A type that `record!` or `variant!` defines: its shape follows from the type alone.
 pub(crate) trait Part: Sized {
     fn decode(node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self;
     fn fallback() -> Self;
@@ -37,11 +37,11 @@ pub(crate) trait Part: Sized {
     fn schema() -> Data;
 }
 
-/// What is defined by `keyword!`.
+/// A type that `keyword!` defines.
 pub(crate) trait Keyword: Copy + PartialEq + 'static {
     const NOUN: &'static str;
     const NAMES: &'static [&'static str];
-    /// What each of them means, in the same order.
+    /// The meaning of each name, in the same order.
     const DOCS: &'static [&'static str];
     const VALUES: &'static [Self];
 }
@@ -96,7 +96,7 @@ impl<T: Keyword> Shape for WordShape<T> {
     fn schema(&self) -> Data {
         let texts =
             |texts: &[&str]| Data::List(texts.iter().map(|text| Data::text(text.trim())).collect());
-        // Not JSON Schema's own, but what editors show beside each word.
+        // `enumDescriptions` is not part of JSON Schema, but editors show it beside each word.
         Data::map([
             ("enum", texts(T::NAMES)),
             ("enumDescriptions", texts(T::DOCS)),
@@ -112,8 +112,8 @@ pub(crate) struct Number {
     fault: fn(f64, Range) -> Datum,
 }
 
-/// The size that lengths, coordinates and radiances may have: their products and squares stay
-/// within the range of 64-bit floating point.
+/// Maximum magnitude of lengths, coordinates and radiances: their products and squares stay within
+/// the range of 64-bit floating point.
 pub(crate) const LARGEST: f64 = 1e30;
 
 /// A number from `low` to `high`, both included.
@@ -130,17 +130,17 @@ pub(crate) const fn number(low: f64, high: f64) -> Number {
 }
 
 impl Number {
-    /// The same interval without its lowest number.
+    /// Returns the same interval without its lowest number.
     pub(crate) const fn above(mut self) -> Self {
         self.range.low_open = true;
         self
     }
-    /// The same interval without its highest number.
+    /// Returns the same interval without its highest number.
     pub(crate) const fn below(mut self) -> Self {
         self.range.high_open = true;
         self
     }
-    /// The same interval with a problem of its own for what is out of range.
+    /// Returns the same interval with `fault` as the problem of a number that is out of range.
     pub(crate) const fn or(self, fault: fn(f64, Range) -> Datum) -> Self {
         Self { fault, ..self }
     }
@@ -157,7 +157,7 @@ impl Number {
     }
 }
 
-/// A number's text as its value; reports anything else.
+/// Reads a number from its text; reports anything else.
 fn read_number(
     node: &Node,
     at: &Place<'_>,
@@ -228,7 +228,8 @@ pub(crate) struct Whole<T> {
     high: T,
 }
 
-/// A whole number from `low` to `high`, both included; at most 2^53, where every f64 is one.
+/// A whole number from `low` to `high`, both included, at most 2^53: up to there, each is exact in
+/// `f64`.
 pub(crate) const fn whole<T>(low: T, high: T) -> Whole<T> {
     Whole { low, high }
 }

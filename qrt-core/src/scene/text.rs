@@ -4,7 +4,7 @@
 use crate::syntax::number;
 use std::fmt::Write as _;
 
-/// Data without a type: what a scene is encoded to. JSON's model, with entries in order.
+/// Untyped data to which a scene is encoded: JSON's model, with ordered entries.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Data {
     /// A number. NaN and infinities print as in YAML; a valid scene has none.
@@ -35,7 +35,7 @@ impl Data {
         )
     }
 
-    /// This map with one more entry; anything else as it is.
+    /// Returns this map with one more entry; other data stay as they are.
     pub fn with(mut self, key: &str, value: Data) -> Self {
         if let Self::Map(entries) = &mut self {
             entries.push((key.to_owned(), value));
@@ -51,7 +51,8 @@ impl Data {
         }
     }
 
-    /// JSON on indented lines; short lists and maps stay on one. Ends in a line feed.
+    /// Formats the data as JSON on indented lines; short lists and maps stay on one line. The text
+    /// ends in a line feed.
     pub fn to_json(&self) -> String {
         let mut out = String::new();
         self.json(&mut out, 0);
@@ -109,14 +110,15 @@ impl Data {
         out.push(close);
     }
 
-    /// The canonical text: one line of YAML flow style, which is what fingerprints are taken of.
+    /// Returns the canonical text, of which fingerprints are computed: one line of YAML flow style.
     pub fn canonical(&self) -> String {
         let mut out = String::new();
         self.flow(&mut out, false);
         out
     }
 
-    /// YAML in blocks, with what fits on a line of 100 on one. Ends in a line feed.
+    /// Formats the data as YAML in blocks; lists and maps that fit into 100 columns stay on one
+    /// line. The text ends in a line feed.
     pub fn to_yaml(&self) -> String {
         let mut out = String::new();
         self.block(&mut out, 0);
@@ -135,7 +137,7 @@ impl Data {
         }
     }
 
-    /// On one line. With `json`, keys and texts are always in quotes.
+    /// Appends the data on one line. With `json`, keys and texts are always in quotes.
     fn flow(&self, out: &mut String, json: bool) {
         match self {
             Self::Number(value) => out.push_str(&number(*value)),
@@ -195,7 +197,7 @@ impl Data {
         }
     }
 
-    /// After a key: on the same line if it fits, else below.
+    /// Appends the value after a key: on the same line if it fits, else below.
     fn after(&self, out: &mut String, indent: usize) {
         if !self.fits(out) {
             out.push('\n');
@@ -203,18 +205,18 @@ impl Data {
         }
     }
 
-    /// After a dash, which never stands alone on a line: below it begins on the same line.
+    /// Appends the value after a dash, always from the dash's line on: a dash never stands alone.
     fn behind_dash(&self, out: &mut String, indent: usize) {
         if !self.fits(out) {
             let mut below = String::new();
             self.block(&mut below, indent + 2);
             out.push(' ');
-            // The dash stands in the first line's margin.
+            // The dash takes the place of the first line's margin.
             out.push_str(below.trim_start_matches(' '));
         }
     }
 
-    /// Adds it on the same line, if it fits there.
+    /// Appends the data to the current line if they fit, and returns whether they do.
     fn fits(&self, out: &mut String) -> bool {
         let mut line = String::new();
         self.flow(&mut line, false);
@@ -229,7 +231,7 @@ impl Data {
     }
 }
 
-/// Plain where nothing else could be read from it, else in quotes.
+/// Appends a text: plain if it can be read as nothing else, otherwise in quotes.
 fn word(out: &mut String, text: &str) {
     let mut bytes = text.bytes();
     let plain = bytes.next().is_some_and(|b| b.is_ascii_alphabetic())
@@ -243,7 +245,7 @@ fn word(out: &mut String, text: &str) {
     }
 }
 
-/// In double quotes, by the escapes that JSON and YAML share.
+/// Appends a text in double quotes, with the escapes that JSON and YAML share.
 fn quote(out: &mut String, text: &str) {
     out.push('"');
     for c in text.chars() {
@@ -263,7 +265,7 @@ fn quote(out: &mut String, text: &str) {
     out.push('"');
 }
 
-/// 128 bits that name a scene: FNV-1a over bytes.
+/// A 128-bit fingerprint of a scene: FNV-1a over bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fingerprint(u128);
 
@@ -271,7 +273,7 @@ impl Fingerprint {
     /// The fingerprint of no bytes.
     pub const EMPTY: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
 
-    /// The fingerprint of the bytes so far, followed by more.
+    /// Returns the fingerprint of the bytes so far, followed by `bytes`.
     pub fn and(self, bytes: &[u8]) -> Self {
         const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
         let step = |hash: u128, byte: &u8| (hash ^ u128::from(*byte)).wrapping_mul(PRIME);

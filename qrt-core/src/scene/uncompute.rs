@@ -1,7 +1,7 @@
-//! When work registers are uncomputed: each way has a name.
+//! Strategies of uncomputing work registers, and their names.
 //!
-//! A name other than `keep`, `scoped` and `auto` lists parts of the work, such as `plane-products`: what each
-//! part uncomputes is said in `compile/strategy.rs`.
+//! A name other than `keep`, `scoped` and `auto` lists parts of the work, such as `plane-products`.
+//! `compile/strategy.rs` defines what each part uncomputes.
 
 use super::shape::Shape;
 use super::text::Data;
@@ -10,7 +10,7 @@ use crate::syntax::{Place, Problems, Structure};
 use std::fmt;
 use std::sync::LazyLock;
 
-/// When work registers are uncomputed.
+/// A strategy that decides when work registers are uncomputed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Uncompute {
     /// All at the end: fewest gates, most qubits.
@@ -23,7 +23,8 @@ pub enum Uncompute {
     Parts(UncomputedParts),
 }
 
-/// Parts of the work that are uncomputed early, where neither `keep` nor `scoped` names them.
+/// A set of parts of the work that are uncomputed early, other than the sets of `keep` and
+/// `scoped`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UncomputedParts {
     /// A bit for each of [`PARTS`].
@@ -31,18 +32,18 @@ pub struct UncomputedParts {
     again: Again,
 }
 
-/// Values that are computed again rather than kept.
+/// Values that are recomputed rather than kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Again {
     /// Nothing.
     Nothing,
-    /// Values that are cheap.
+    /// Cheap values.
     Cheap,
-    /// And what these are computed from.
+    /// Cheap values, and the values from which they are computed.
     Sources,
 }
 
-/// The words that stand alone, and what they mean.
+/// Names that stand alone, with their meanings.
 const WORDS: [(Uncompute, &str, &str); 3] = [
     (
         Uncompute::Keep,
@@ -74,14 +75,15 @@ pub(crate) const PARTS: [&str; 9] = [
     "component",
 ];
 const ALL_PARTS: u16 = (1 << PARTS.len()) - 1;
-/// The parts that leave garbage: whoever computes anew leaves none.
+/// The parts that leave garbage. Strategies that recompute values always include them.
 const GARBAGE: u16 = 1 << 1 | 1 << 4 | 1 << 5;
 /// The parts of `scoped`: all but convex bodies.
 const SCOPED: u16 = ALL_PARTS & !(1 << 6);
 const RECOMPUTE: &str = "recompute";
 const RERUN: &str = "rerun";
 
-/// All words of names: those of [`WORDS`], which stand alone, the parts, and what is computed again.
+/// All words of names: those of [`WORDS`], which stand alone, the parts, and the two for
+/// recomputation.
 const NAMES: &[&str] = &{
     let mut names = [RERUN; WORDS.len() + PARTS.len() + 2];
     let (alone, rest) = names.split_at_mut(WORDS.len());
@@ -98,7 +100,7 @@ const NAMES: &[&str] = &{
 const NOUN: &str = "a strategy";
 
 impl Uncompute {
-    /// These parts, by bit, and what is computed again.
+    /// Returns the strategy that uncomputes `parts`, by bit, and recomputes `again`.
     pub(crate) fn of_parts(parts: u16, again: Again) -> Self {
         match (parts, again) {
             (0, Again::Nothing) => Self::Keep,
@@ -111,7 +113,7 @@ impl Uncompute {
         }
     }
 
-    /// The parts, by bit, and what is computed again; none of `auto`.
+    /// Returns the parts, by bit, and the values to recompute; `None` for `auto`.
     pub(crate) fn parts(self) -> Option<(u16, Again)> {
         match self {
             Self::Keep => Some((0, Again::Nothing)),
@@ -121,7 +123,8 @@ impl Uncompute {
         }
     }
 
-    /// Its name in a scene, such as `keep`, or `plane-products` where parts are listed.
+    /// Returns the strategy's name in a scene, such as `keep`, or `plane-products` for listed
+    /// parts.
     pub fn name(self) -> &'static str {
         static LISTED: LazyLock<Vec<String>> = LazyLock::new(|| {
             let parts = 0..=ALL_PARTS;
@@ -140,7 +143,7 @@ impl Uncompute {
         }
     }
 
-    /// The strategy of that name, in whatever order its parts stand; none if there is none.
+    /// Returns the strategy called `name`, with its parts in any order; `None` if there is none.
     ///
     /// ```
     /// use qrt_core::scene::Uncompute;
@@ -165,7 +168,8 @@ impl Uncompute {
     }
 }
 
-/// The name of these parts. What computes anew leaves no garbage, which need not be said.
+/// Returns the name of `parts` and `again`. Recomputation implies the parts of [`GARBAGE`], so the
+/// name omits them.
 fn listed(parts: u16, again: Again) -> String {
     let (shown, last) = match again {
         Again::Nothing => (parts, None),
@@ -197,7 +201,7 @@ impl Shape for UncomputeShape {
         };
         found.unwrap_or_else(|| {
             match &node.value {
-                // Of several words, the one that is unknown.
+                // Report the unknown one of several words.
                 Value::Scalar(scalar) if scalar.text.contains('-') => {
                     let mut words = scalar.text.split('-');
                     let unknown = words.find(|word| !NAMES[WORDS.len()..].contains(word));
@@ -261,7 +265,7 @@ mod tests {
                 names.insert(strategy.name());
             }
         }
-        // 512, and two for each choice of the six parts that leave no garbage.
+        // 512 sets of parts, and two for each choice of the six parts that leave no garbage.
         assert_eq!(names.len(), 512 + 2 * 64);
         assert!(names.contains("keep") && names.contains("scoped"));
         assert!(names.contains("plane-ray-recompute") && names.contains("rerun"));

@@ -1,4 +1,4 @@
-//! Every error code, once: what it means and what to do about it.
+//! The table of error codes: the meaning of each code, and advice.
 //!
 //! Codes are stable: a number, once given, keeps its meaning. `QRT01..` is about the text and its
 //! structure, `QRT02..` about values and names, `QRT03..` about geometry and meshes, `QRT04..`
@@ -11,9 +11,9 @@
 pub struct Code {
     /// `QRT0101`
     pub code: &'static str,
-    /// What is wrong, in a few words.
+    /// The problem, in a few words.
     pub title: &'static str,
-    /// What to do about it.
+    /// Advice: how to fix the problem.
     pub advice: &'static str,
 }
 
@@ -368,7 +368,7 @@ codes! {
         "Give these faces another material for the comparison";
 }
 
-/// The row of a code.
+/// Returns the table row of `code`; `None` if there is no such code.
 pub fn lookup(code: &str) -> Option<&'static Code> {
     TABLE.iter().find(|row| row.code == code)
 }

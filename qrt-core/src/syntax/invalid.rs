@@ -1,14 +1,15 @@
-//! Why a scene that was made in Rust is none.
+//! The error type of a scene built in Rust that is not valid.
 
 use super::{At, Problem};
 use std::fmt;
 use std::ops::Deref;
 
-/// Everything that is wrong with a scene: what [`crate::valid::validate`] returns in place of a
+/// The problems of an invalid scene, which [`crate::valid::validate`] returns in place of a
 /// [`crate::valid::ValidScene`].
 ///
-/// It is an error like others, which `?` passes on, and shows every problem with its code, its path
-/// in the scene and what to write instead. As a slice, it is the problems themselves, at least one.
+/// It implements [`std::error::Error`], so `?` passes it on. Its text shows every problem with its
+/// code, its path in the scene and what to write instead. It dereferences to the slice of its
+/// problems, which has at least one element.
 ///
 /// ```
 /// use qrt_core::scene::{Film, Scene};

@@ -1,8 +1,8 @@
-//! What a text says before anybody knows what it means, and how its faults are told: a tree of values
-//! with places, the paths through it, problems, their codes and their reports.
+//! The untyped syntax tree with source positions, and error reporting: paths, problems, error codes
+//! and reports.
 //!
-//! Every front end and every check speaks to an author through this module, and it imports nothing of
-//! scenes: a [`Problem`] is a variant with arguments, which each front end puts into its own words.
+//! All front ends and checks report through this module. It imports nothing from the scene modules:
+//! a [`Problem`] is an enum variant with arguments, which each front end words in its own way.
 
 pub mod codes;
 mod invalid;

@@ -1,6 +1,6 @@
-//! Names as they are listed, and the one that was probably meant.
+//! Formats lists of names, and finds the nearest name to a misspelt one.
 
-/// `a`, `b` and `c`
+/// Lists `names` in backticks, with `last` before the final one: `` `a`, `b` and `c` ``.
 pub fn listed<T: AsRef<str>>(names: &[T], last: &str) -> String {
     let quoted: Vec<_> = names
         .iter()
@@ -13,10 +13,10 @@ pub fn listed<T: AsRef<str>>(names: &[T], last: &str) -> String {
     }
 }
 
-/// The name that `text` was probably meant to be: at most a third of its letters away. An ending that
-/// is missing is one letter.
+/// Returns the name that `text` probably misspells. The edit distance, ignoring case, is at most a
+/// third of the longer one's letters, or 1 if that is more. A missing ending counts as one letter.
 pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Nobody writes longer names, and comparing them takes long.
+    // Real names are shorter, and comparing long ones is slow.
     const LONGEST: usize = 64;
     let lower = text.to_lowercase();
     let candidates = names.into_iter().filter_map(|name| {

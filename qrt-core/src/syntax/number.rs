@@ -1,4 +1,4 @@
-//! Numbers as they are shown.
+//! Formats numbers for display.
 
 /// The shortest text that reads back as `value`.
 pub fn number(value: f64) -> String {
@@ -21,7 +21,8 @@ pub fn number(value: f64) -> String {
 
 pub use qrt_circuit::grouped;
 
-/// Six decimals for a person, or three where they would not do.
+/// Formats `x` with up to six decimals, or in scientific notation with three if its magnitude is
+/// below 1e-4 or at least 1e6.
 pub(crate) fn rounded(x: f64) -> String {
     let exponent = x.abs().log10();
     if x == 0.0 || (-4.0..6.0).contains(&exponent) {

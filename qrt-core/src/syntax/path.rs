@@ -7,13 +7,13 @@ use std::fmt;
 pub enum Step {
     /// The value of a key.
     Key(String),
-    /// The key itself, where the problem is the name.
+    /// The key itself, if the problem is the key's name.
     Name(String),
     /// An element of a list, from 0.
     Item(usize),
 }
 
-/// Where in a scene: `materials.cloth.bsdf.value[0]`.
+/// A path to a place in a scene: `materials.cloth.bsdf.value[0]`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Path(pub Vec<Step>);
 
@@ -22,15 +22,15 @@ impl Path {
     pub fn root() -> Self {
         Self::default()
     }
-    /// The value of `key` below this.
+    /// Returns the path of the value of `key` below this path.
     pub fn key(&self, key: impl Into<String>) -> Self {
         self.with(Step::Key(key.into()))
     }
-    /// The key `key` itself below this.
+    /// Returns the path of the key `key` itself below this path.
     pub fn name(&self, key: impl Into<String>) -> Self {
         self.with(Step::Name(key.into()))
     }
-    /// Element `index` below this.
+    /// Returns the path of element `index` below this path.
     pub fn item(&self, index: usize) -> Self {
         self.with(Step::Item(index))
     }
@@ -64,7 +64,7 @@ fn is_plain(key: &str) -> bool {
     !key.is_empty() && key.trim() == key && !key.starts_with('"') && !key.contains(['.', '=', '['])
 }
 
-/// A path under construction, without allocation on the way.
+/// A path under construction: a linked list on the stack, without allocation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     parent: Option<&'a Place<'a>>,
@@ -85,12 +85,12 @@ impl<'a> Place<'a> {
         step: At::Root,
     };
 
-    /// The value of `key` below this.
+    /// Returns the place of the value of `key` below this place.
     pub(crate) fn key(&'a self, key: &'a str) -> Place<'a> {
         self.with(At::Key(key))
     }
 
-    /// Element `index` below this.
+    /// Returns the place of element `index` below this place.
     pub(crate) fn item(&'a self, index: usize) -> Place<'a> {
         self.with(At::Item(index))
     }
@@ -100,7 +100,7 @@ impl<'a> Place<'a> {
         Place { parent, step }
     }
 
-    /// The same place as a path.
+    /// Converts the place to a [`Path`].
     pub(crate) fn path(&self) -> Path {
         let mut steps = Vec::new();
         let mut place = Some(self);
@@ -116,7 +116,8 @@ impl<'a> Place<'a> {
         Path(steps)
     }
 
-    /// The key at the end of this, or else the value: where to show what a map lacks.
+    /// Returns the path of the final key itself, or of the value if the path does not end in a key.
+    /// Problems about missing keys of a map point there.
     pub(crate) fn name(&self) -> Path {
         let mut path = self.path();
         if let Some(Step::Key(key)) = path.0.last() {

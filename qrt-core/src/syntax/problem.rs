@@ -1,8 +1,8 @@
-//! Problems with places, gathered so that an author sees them all at once.
+//! Problems and their places, collected so that an author sees all of them at once.
 //!
-//! A problem of a scene names its place by [`Path`], never by line: the front end that read the scene
-//! turns the path into file, line and column (or a token's span). One of the text itself has its
-//! [`Span`] from the beginning.
+//! A problem of a scene names its place by [`Path`], never by line. The front end that read the
+//! scene converts the path into file, line and column (or a token's span). A problem of the text
+//! itself has its [`Span`] from the start.
 
 use super::kinds::{What, Words};
 use super::path::{Path, Place, Step};
@@ -10,24 +10,24 @@ use super::tree::Span;
 use std::collections::HashSet;
 use std::ops::Range;
 
-/// One thing that is wrong.
+/// A problem and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// What is wrong.
+    /// The kind of the problem, with its arguments.
     pub what: What,
-    /// Where the problem is.
+    /// The place of the problem.
     pub at: At,
-    /// Bytes within the string found there, where the problem is a part of it.
+    /// The byte range within the string at that place, if the problem concerns only a part of it.
     pub within: Option<Range<usize>>,
-    /// Another place that matters: the first definition of a duplicate, say.
+    /// A second relevant place, such as the first definition of a duplicate.
     pub also: Option<At>,
 }
 
-/// Where a problem is.
+/// The place of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum At {
-    /// What this path leads to in the scene; the root of a scene that could not be read is the
-    /// file.
+    /// The value at this path in the scene. If the scene could not be read, the root path stands
+    /// for the file.
     Path(Path),
     /// A place in the text.
     Span(Span),
@@ -52,7 +52,7 @@ impl From<Span> for At {
 }
 
 impl Problem {
-    /// A problem at this place.
+    /// Creates a problem at the place `at`.
     pub fn new(at: impl Into<At>, what: impl Into<What>) -> Self {
         Self {
             what: what.into(),
@@ -62,13 +62,13 @@ impl Problem {
         }
     }
 
-    /// The same problem with another place that matters.
+    /// Adds a second relevant place.
     pub fn also(mut self, at: impl Into<At>) -> Self {
         self.also = Some(at.into());
         self
     }
 
-    /// The problem's path in the scene; none for a problem of the text.
+    /// The problem's path in the scene; `None` for a problem of the text.
     pub fn path(&self) -> Option<&Path> {
         match &self.at {
             At::Path(path) => Some(path),
@@ -76,7 +76,7 @@ impl Problem {
         }
     }
 
-    /// How a scene's text is told of it.
+    /// Returns the problem in words, for the author of a scene's text.
     pub fn words(&self) -> Words {
         self.what.words()
     }
@@ -86,7 +86,7 @@ impl Problem {
         self.words().code
     }
 
-    /// This, of something that stands at `path`.
+    /// Prefixes the problem's paths with `path`.
     pub(crate) fn below(mut self, path: &Path) -> Self {
         for at in [Some(&mut self.at), self.also.as_mut()]
             .into_iter()
@@ -100,32 +100,34 @@ impl Problem {
     }
 }
 
-/// As many problems are kept.
+/// Maximum number of problems that [`Problems`] keeps.
 pub(crate) const KEPT: usize = 1 << 16;
 
-/// Everything that is wrong so far: the one gatherer of all readers and checks.
+/// The problems found so far, collected by all readers and checks.
 ///
-/// A value that cannot be taken as it is gets reported, marked, and replaced by a harmless one, so that
-/// the rest is still read and checked. What is found later about such values is not said: it may only
-/// follow from what is known.
+/// A faulty value is reported, marked, and replaced by a harmless one, so that the rest is still
+/// read and checked. Later problems about a marked value are suppressed, because the first problem
+/// may be their only cause.
 #[derive(Debug, Default)]
 pub struct Problems {
-    /// At most [`KEPT`]: nobody reads more, and a hostile scene may have any number.
+    /// At most [`KEPT`] problems: more are of no use to a reader, and a hostile scene may have any
+    /// number.
     found: Vec<Problem>,
-    /// Values that are replaced, or out of their range.
+    /// Values that were replaced or are out of range.
     marked: Vec<Path>,
-    /// These, and all that holds one of them; both empty until [`Problems::finalize`].
+    /// `places` holds the marked values, `above` all values that contain one. Both are empty until
+    /// [`Problems::finalize`].
     places: HashSet<Path>,
     above: HashSet<Path>,
 }
 
 impl Problems {
-    /// Adds a problem, unless it only follows from what is known.
+    /// Adds a problem at `at`, unless it concerns a marked value.
     pub fn add(&mut self, at: impl Into<At>, what: impl Into<What>) {
         self.push(Problem::new(at, what));
     }
 
-    /// As [`Problems::add`].
+    /// Adds a problem as [`Problems::add`] does.
     pub fn push(&mut self, problem: Problem) {
         let follows = |at: &At| matches!(at, At::Path(path) if self.touches(path));
         if self.found.len() < KEPT
@@ -136,7 +138,7 @@ impl Problems {
         }
     }
 
-    /// Adds a problem about the value at `path`, which is not to be relied on.
+    /// Adds a problem about the value at `path`, and marks the value as unreliable.
     pub(crate) fn refuse(&mut self, path: impl Into<Path>, what: impl Into<What>) {
         if self.found.len() < KEPT {
             let path = path.into();
@@ -145,12 +147,12 @@ impl Problems {
         }
     }
 
-    /// The value at `path` is not to be relied on.
+    /// Marks the value at `path` as unreliable.
     pub(crate) fn mark(&mut self, path: Path) {
         self.marked.push(path);
     }
 
-    /// From here on, nothing is said of what is marked.
+    /// Suppresses problems about marked values from now on.
     pub(crate) fn finalize(&mut self) {
         for path in std::mem::take(&mut self.marked) {
             let path = path.values();
@@ -161,23 +163,23 @@ impl Problems {
         }
     }
 
-    /// Whether the value at `path`, or one that holds it, is marked.
+    /// True if the value at `path`, or a value that contains it, is marked.
     pub(crate) fn covers(&self, path: &Path) -> bool {
         let path = path.values();
         (0..=path.0.len()).any(|n| self.places.contains(&Path(path.0[..n].to_vec())))
     }
 
-    /// Whether `path` is marked, or is within what is, or holds some of it.
+    /// True if the value at `path` is marked, lies within a marked value, or contains one.
     pub(crate) fn touches(&self, path: &Path) -> bool {
         !self.places.is_empty() && (self.covers(path) || self.above.contains(&path.values()))
     }
 
-    /// The problems added since there were `count` of them.
+    /// Returns the problems added after the first `count`.
     pub(crate) fn since(&mut self, count: usize) -> &mut [Problem] {
         &mut self.found[count..]
     }
 
-    /// How many problems there are.
+    /// Number of problems.
     pub fn count(&self) -> usize {
         self.found.len()
     }
@@ -187,10 +189,10 @@ impl Problems {
         self.found
     }
 
-    /// `value`, if nothing is wrong.
+    /// Returns `value` if there are no problems.
     ///
     /// # Errors
-    /// Everything that is wrong.
+    /// All problems, if there are any.
     pub fn result<T>(self, value: T) -> Result<T, Vec<Problem>> {
         if self.found.is_empty() {
             Ok(value)
@@ -209,7 +211,7 @@ impl Extend<Problem> for Problems {
 }
 
 impl Path {
-    /// The same place, values in place of names.
+    /// Returns the path with each step to a key's name replaced by the step to its value.
     fn values(&self) -> Self {
         let value = |step: &Step| match step {
             Step::Name(name) => Step::Key(name.clone()),

@@ -1,5 +1,5 @@
-//! Problems shown in their source, as a compiler shows them: file, line and column, the source
-//! line, a caret, the code, and the right thing to write.
+//! Reports: problems shown in their source as a compiler shows them, with file, line and column,
+//! the source line, a caret, the code and the suggested fix.
 
 use super::kinds::{What, Words};
 use super::line::line_starts;
@@ -15,15 +15,15 @@ use std::ops::Range;
 /// A text that problems point into.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// What stands before the line number: a file's path, or `<--set>`.
+    /// The name shown before the line number: a file's path, or `<--set>`.
     pub name: String,
     /// The text, without a byte order mark, its lines ended by LF.
     pub text: String,
 }
 
 impl Source {
-    /// A named text. A byte order mark at its start is dropped. CR LF and CR become LF, which is the
-    /// same to YAML.
+    /// Creates a named source. It drops a byte order mark at the start, and replaces CR LF and CR
+    /// by LF, which means the same in YAML.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let mut text = text.into();
         if text.starts_with('\u{feff}') {
@@ -42,74 +42,75 @@ impl Source {
     }
 }
 
-/// A problem in words, and where it is, if it is anywhere.
+/// A problem in words, and its place if it has one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Told {
     words: Words,
-    /// The place; none when a file cannot be read.
+    /// The place; `None` if the file cannot be read.
     span: Option<Span>,
-    /// The other place that matters.
+    /// The second relevant place.
     also: Option<Span>,
 }
 
-/// Everything that is wrong with a scene.
+/// A report of all problems of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     /// The scene's text first, then that of each override.
     sources: Vec<Source>,
-    /// In the order of their places; at most [`MOST`].
+    /// The problems in the order of their places, at most [`MOST`].
     problems: Vec<Told>,
-    /// Further problems that were found and left out.
+    /// Number of further problems that were left out.
     omitted: usize,
-    /// Whether nothing of it is wrong.
+    /// True if the report holds only warnings.
     warns: bool,
 }
 
-/// One problem of a report, for those who show it themselves.
+/// One problem of a report, for callers that format problems themselves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reported<'a> {
-    /// Its code, such as `QRT0101`.
+    /// The problem's code, such as `QRT0101`.
     pub code: &'static str,
-    /// What is wrong.
+    /// The problem in one sentence.
     pub message: &'a str,
-    /// What is said at the place; may be empty.
+    /// The label at the place; may be empty.
     pub label: &'a str,
-    /// The right thing to write, if that is known.
+    /// The suggested fix, if there is one.
     pub help: Option<&'a str>,
-    /// The name of the text that it is in: a file's path, or `<--set>`.
+    /// The name of the source that has the problem: a file's path, or `<--set>`.
     pub file: &'a str,
-    /// Where it is there; none when a file cannot be read.
+    /// The place in that source; `None` if the file cannot be read.
     pub place: Option<Location>,
 }
 
 /// A place in a text that a report shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
-    /// Whether it is the scene's own text, and not an override's.
+    /// True if the place is in the scene's own text, not in that of an override.
     pub in_scene: bool,
     /// The line, from 1.
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,
-    /// The bytes of the text, as [`Source::new`] leaves it, that are meant.
+    /// The byte range in the text as [`Source::new`] stores it.
     pub bytes: Range<usize>,
 }
 
-/// Problems that a report lists.
+/// Maximum number of problems that a report lists.
 pub const MOST: usize = 1000;
 
-/// Bytes of source that are shown with a problem. Nobody reads longer lines, and laying them out
-/// takes long; their problems are told by line and column.
+/// Maximum number of source bytes shown with a problem. Longer lines are of no use to a reader and
+/// slow to lay out, so their problems show line and column only.
 const LONGEST: usize = 4000;
 
 impl Report {
-    /// A report of one problem about a file as a whole.
+    /// Creates a report of one problem about a file as a whole.
     pub fn of_file(name: &str, what: impl Into<What>) -> Self {
         let problem = Problem::new(super::Path::root(), what);
         Self::new(vec![Source::new(name, "")], None, vec![problem])
     }
 
-    /// Problems at their places in the texts; paths are those of the tree that the first of them became.
+    /// Creates a report of `problems` at their places in `sources`. Paths refer to `tree`, which is
+    /// the tree of the first source.
     pub fn new(sources: Vec<Source>, tree: Option<&Node>, mut problems: Vec<Problem>) -> Self {
         let omitted = problems.len().saturating_sub(MOST);
         problems.truncate(MOST);
@@ -137,7 +138,7 @@ impl Report {
         }
     }
 
-    /// The same as warnings: nothing of it is wrong, but surely not meant.
+    /// Turns the report into warnings, about things that are not wrong but probably unintended.
     pub fn warning(self) -> Self {
         Self {
             warns: true,
@@ -185,12 +186,12 @@ impl Report {
         })
     }
 
-    /// The scene's own text, which places in it are places of.
+    /// Returns the scene's own text, to which places with [`Location::in_scene`] refer.
     pub fn text(&self) -> &str {
         self.sources.first().map_or("", |source| &source.text)
     }
 
-    /// All problems as text; with `colour`, in a terminal's escape codes.
+    /// Renders all problems as text, with terminal escape codes if `colour`.
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour {
             Renderer::styled()
@@ -302,8 +303,8 @@ impl fmt::Display for Report {
 
 impl std::error::Error for Report {}
 
-/// The renderer makes control characters of ASCII visible; to a terminal, those of the Unicode block
-/// after it can be orders too.
+/// Replaces the control characters U+0080 to U+009F, which a terminal may obey. The renderer itself
+/// makes ASCII control characters visible.
 fn visible_controls(text: &str) -> String {
     text.replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
 }
@@ -351,7 +352,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// The lines of a source that are shown: enough for the spans, however long the source.
+/// The source lines to show: enough for the spans, however long the source is.
 struct Excerpt<'a> {
     first_line: usize,
     start: usize,
@@ -393,8 +394,8 @@ impl<'a> Excerpt<'a> {
     }
 }
 
-/// The bytes of `span` that are shown: on character boundaries, within the text, its first line
-/// only, without the blanks at its end.
+/// Returns the bytes of `span` to show: on character boundaries, within the text, only the span's
+/// first line, without trailing blanks.
 fn visible(text: &str, span: Span) -> Range<usize> {
     let start = text.floor_char_boundary(span.start.min(text.len()));
     let end = text
@@ -424,7 +425,8 @@ fn tell(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Told {
     }
 }
 
-/// Bytes within a scalar's text as bytes of its source, where the source has the text verbatim.
+/// Converts a byte range within a scalar's text to its source; `None` unless the source has the
+/// text verbatim.
 fn inner(sources: &[Source], node: &Node, within: &Range<usize>) -> Option<Span> {
     let Value::Scalar(scalar) = &node.value else {
         return None;

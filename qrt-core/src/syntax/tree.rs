@@ -1,17 +1,18 @@
-//! The tree that every front end makes of its text, each node with the place it stands at.
+//! The syntax tree that every front end builds from its text, with the place of each node.
 //!
-//! YAML text and the tokens of the `qrt!` macro both become such a tree; everything after it (the
-//! decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is shared.
+//! YAML text and the tokens of the `qrt!` macro both become a tree of this type. Everything after
+//! it (the decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is
+//! shared.
 
 use super::path::{Path, Step};
 use std::fmt;
 use std::sync::Arc;
 
-/// A place in a source. Only the front end that made it knows what the numbers mean: for text they
-/// are byte offsets into source number `source`.
+/// A place in a source. The front end that created it defines the numbers: for text they are byte
+/// offsets into source number `source`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// Which source: 0 is the scene itself, then one for each override.
+    /// Number of the source: 0 is the scene itself, then one for each override.
     pub source: u32,
     /// The first byte of the place.
     pub start: usize,
@@ -28,12 +29,12 @@ pub struct Node {
     pub value: Value,
 }
 
-/// A value without a meaning yet.
+/// A value without a type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// No value: nothing is written, or `~` or `null`.
     Null,
-    /// What could not be read, which has been reported.
+    /// A value that could not be read; the problem has been reported.
     Unread,
     /// A number, a word or a text; [`Scalar::kind`] tells which.
     Scalar(Scalar),
@@ -48,11 +49,11 @@ pub enum Value {
 pub struct Scalar {
     /// The text without quotes, its escapes resolved.
     pub text: String,
-    /// Whether it stands in quotes or in a block, and so is text whatever it looks like.
+    /// True if the scalar is in quotes or a block, so that it is always text.
     pub quoted: bool,
 }
 
-/// What a scalar is by the core schema of YAML 1.2.
+/// The type of a scalar by the core schema of YAML 1.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A number, whole or not; it is infinite where the text is beyond the range of 64 bits.
@@ -64,7 +65,7 @@ pub enum Kind {
 }
 
 impl Scalar {
-    /// What the scalar is by the core schema of YAML 1.2 (section 10.3.2).
+    /// Returns the scalar's type by the core schema of YAML 1.2 (section 10.3.2).
     pub fn kind(&self) -> Kind {
         if self.quoted {
             return Kind::Text;
@@ -76,19 +77,19 @@ impl Scalar {
         }
     }
 
-    /// Whether this number is written with a digit other than 0 in its mantissa.
+    /// True if this number is written with a digit other than 0 in its mantissa.
     pub fn has_digits(&self) -> bool {
         let mantissa = self.text.split(['e', 'E']).next().unwrap_or_default();
         mantissa.bytes().any(|b| b.is_ascii_digit() && b != b'0')
     }
 }
 
-/// Whether plain text means "nothing".
+/// True if `text` without quotes means "nothing".
 pub fn is_null(text: &str) -> bool {
     matches!(text, "" | "~" | "null" | "Null" | "NULL")
 }
 
-/// `[-+]?(.inf|.Inf|.INF)`, `.nan`, `0o` and `0x` integers, decimal integers and floats.
+/// Reads `[-+]?(.inf|.Inf|.INF)`, `.nan`, `0o` and `0x` integers, decimal integers and floats.
 fn number(text: &str) -> Option<f64> {
     if matches!(text, ".nan" | ".NaN" | ".NAN") {
         return Some(f64::NAN);
@@ -112,7 +113,7 @@ fn number(text: &str) -> Option<f64> {
     if !is_decimal(body) {
         return None;
     }
-    // The grammar of YAML's floats is a part of what `f64::from_str` reads.
+    // `f64::from_str` reads all floats of YAML's grammar.
     body.parse::<f64>().ok().map(|value| sign * value)
 }
 
@@ -125,7 +126,7 @@ fn radix_number(digits: &str, radix: u32) -> Option<f64> {
     })
 }
 
-/// `( \. [0-9]+ | [0-9]+ ( \. [0-9]* )? ) ( [eE] [-+]? [0-9]+ )?`
+/// True if `text` is `( \. [0-9]+ | [0-9]+ ( \. [0-9]* )? ) ( [eE] [-+]? [0-9]+ )?`.
 fn is_decimal(text: &str) -> bool {
     let digits = |s: &str| s.bytes().take_while(u8::is_ascii_digit).count();
     let whole = digits(text);
@@ -152,14 +153,14 @@ fn is_decimal(text: &str) -> bool {
 pub struct Entry {
     /// The key, without quotes.
     pub key: String,
-    /// Where the key stands.
+    /// The place of the key.
     pub key_span: Span,
     /// The value of the key.
     pub value: Node,
 }
 
 impl Node {
-    /// The entry of `key`, if this is a map that has it.
+    /// Returns the entry of `key`, if this node is a map that has one.
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         match &self.value {
             Value::Map(entries) => entries.iter().find(|entry| entry.key == key),
@@ -167,7 +168,7 @@ impl Node {
         }
     }
 
-    /// What this is, for "expected a number, found ...".
+    /// Returns the kind of this node, for "expected a number, found ...".
     pub fn found(&self) -> Found {
         match &self.value {
             Value::Null | Value::Unread => Found::Nothing,
@@ -177,8 +178,8 @@ impl Node {
         }
     }
 
-    /// The node at `path`, or the nearest one above it that is written (a default is not written),
-    /// with the span to show: that of the key where the path ends in a name.
+    /// Returns the node at `path`, or its nearest ancestor that is written (a default is not
+    /// written). The span to show is that of the key if the path ends in a name.
     pub fn resolve(&self, path: &Path) -> Resolved<'_> {
         let mut found = Resolved {
             node: self,
@@ -219,8 +220,8 @@ impl Node {
         }
     }
 
-    /// Nodes in this tree, itself included, and bytes of their texts and keys; what copies share
-    /// counts each time.
+    /// Number of nodes in this tree, the root included, and of bytes in their texts and keys. Nodes
+    /// that copies share count once per copy.
     pub fn size(&self) -> [usize; 2] {
         let one = |bytes: usize, below: [usize; 2]| [1 + below[0], bytes + below[1]];
         let sum = |a: [usize; 2], b: [usize; 2]| [a[0] + b[0], a[1] + b[1]];
@@ -236,7 +237,7 @@ impl Node {
         }
     }
 
-    /// Levels of lists and maps in this tree.
+    /// Number of nested levels of lists and maps in this tree.
     pub fn height(&self) -> usize {
         match &self.value {
             Value::Null | Value::Unread | Value::Scalar(_) => 0,
@@ -252,18 +253,18 @@ impl Node {
     }
 }
 
-/// What a path leads to in a tree.
+/// The node that a path leads to in a tree.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolved<'a> {
-    /// The node, or the nearest above.
+    /// The node at the path, or its nearest ancestor.
     pub node: &'a Node,
     /// The place to show.
     pub span: Span,
-    /// Whether the whole path is written.
+    /// True if the whole path is written.
     pub exact: bool,
 }
 
-/// What stands at a place, whatever was expected there.
+/// The kind of value found at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Found {
@@ -289,7 +290,7 @@ impl fmt::Display for Found {
     }
 }
 
-/// At most 40 characters of `text`.
+/// Shortens `text` to 40 characters and appends `...`, if it is longer.
 pub(crate) fn shorten(text: &str) -> String {
     let mut short: String = text.chars().take(40).collect();
     if short.len() < text.len() {

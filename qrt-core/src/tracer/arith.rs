@@ -1,20 +1,20 @@
-//! What the tracer computes with.
+//! The arithmetic that the tracer computes with.
 
 use super::{Sampled, Segment};
 use crate::expr::Function;
 pub use crate::sampling::{Axis, Coordinate};
 
-/// A stage of the tracer, as the paper's figure has it, or a part of one.
+/// A stage of the tracer, as in the paper's figure, or a part of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// The ray of this depth: the camera's, or what a surface scatters.
+    /// The ray of this depth: the camera's, or the one that a surface scatters.
     GenerateRay(usize),
     /// The nearest intersection of the ray of this depth.
     FindIntersection(usize),
-    /// The point on a lamp that the start of the ray of this depth is connected to, and what of
-    /// its light goes to the viewer if nothing stands between.
+    /// The point on a lamp that is sampled at the start of the ray of this depth. Also the part of its light
+    /// that goes to the viewer if nothing stands between.
     SampleLight(usize),
-    /// Whether anything stands between.
+    /// The test for anything between the start of the ray of this depth and the point on the lamp.
     Shadow(usize),
     /// One convex body (by number), within an intersection.
     Body(usize),
@@ -22,9 +22,9 @@ pub enum Part {
     Plane(usize),
     /// One primitive (by number), within an intersection.
     Primitive(usize),
-    /// What the vertex at the end of the ray of this depth emits towards the camera.
+    /// The light that the vertex at the end of the ray of this depth emits towards the camera.
     Shade(usize),
-    /// On which side the ray of this depth meets the surface.
+    /// The side on which the ray of this depth meets the surface.
     Side(usize),
     /// The sampled direction in the local frame, within a ray.
     Sample,
@@ -32,29 +32,30 @@ pub enum Part {
     Component(usize),
 }
 
-/// A number or a vector of a ray that has a name in the layout of registers; in the order of names.
+/// A number or a vector of a ray that has a name in the layout of registers. Variants are in the order of
+/// names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quantity {
-    /// Where it goes: a vector; the camera's are of no particular length.
+    /// The ray's direction, a vector. Directions of the camera's rays have no particular length.
     Direction,
-    /// How far away it meets a surface, in lengths of its direction.
+    /// The distance at which the ray meets a surface, in lengths of its direction.
     Distance,
-    /// The face that it meets, by number.
+    /// The number of the face that the ray meets.
     Face,
-    /// Whether it meets a surface, on a path that has not ended.
+    /// True if the ray meets a surface, on a path that has not ended.
     Found,
     /// The cell of the unit square that samples the point on a lamp.
     Lamp,
-    /// Where it starts: a vector, in the scene's frame as the circuit scales it.
+    /// The point where the ray starts, a vector in the scene's frame as the circuit scales it.
     Origin,
     /// The cell of the unit square that it samples: its two coordinates.
     Sample,
-    /// The fraction of what it finds that reaches the camera, by channel.
+    /// The fraction of the light that the ray finds which reaches the camera, by channel.
     Throughput,
 }
 
 impl Quantity {
-    /// `direction`
+    /// The name of the quantity, such as `direction`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Direction => "direction",
@@ -74,15 +75,15 @@ impl Quantity {
 pub struct Named {
     /// The number of bounces before the ray: 0 for the primary ray.
     pub depth: usize,
-    /// Which quantity.
+    /// The quantity.
     pub quantity: Quantity,
 }
 
-/// A part of the tracer that can be done in a function of its own: see [`Arith::apart`].
+/// A part of the tracer that can run in a function of its own: see [`Arith::apart`].
 pub trait Work<A: Arith> {
-    /// What it computes.
+    /// The type of the result.
     type Output;
-    /// Does it.
+    /// Computes the result.
     fn run(self, cx: &mut A) -> Self::Output;
 }
 
@@ -108,17 +109,17 @@ pub trait Arith: Sized {
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// `a b`
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// `a / b`, which lies within `-most ..= most` wherever it matters; anything where it does not,
-    /// or where `b` is zero.
+    /// `a / b`, which lies within `-most ..= most` on the paths that use it. Arbitrary if it lies outside, or
+    /// if `b` is zero.
     fn div(&mut self, a: Self::Real, b: Self::Real, most: f64) -> Self::Real;
-    /// `a / b` of an author's formula, which lies within `-most ..= most`. Without a bound, the divisor may
-    /// be zero, and a machine that holds no infinity refuses the formula.
+    /// `a / b` in a user-defined formula, which lies within `-most ..= most`. If `most` is infinite, the
+    /// divisor may be zero, and a machine without infinity rejects the formula.
     #[inline(always)]
     fn quotient(&mut self, a: Self::Real, b: Self::Real, most: f64) -> Self::Real {
         self.div(a, b, most)
     }
-    /// Whether `a / b` is above 0, and the quotient itself. One above `most` may be told as not
-    /// above 0: nothing is that far away.
+    /// Returns whether `a / b` is above 0, and the quotient. A quotient above `most` may count as not above 0:
+    /// nothing is that far away.
     #[inline(always)]
     fn ahead(&mut self, a: Self::Real, b: Self::Real, most: f64) -> (Self::Bool, Self::Real) {
         let quotient = self.div(a, b, most);
@@ -129,7 +130,7 @@ pub trait Arith: Sized {
     fn neg(&mut self, a: Self::Real) -> Self::Real;
     /// `|a|`
     fn abs(&mut self, a: Self::Real) -> Self::Real;
-    /// `sqrt(a)`; anything where `a < 0`.
+    /// `sqrt(a)`; arbitrary if `a < 0`.
     fn sqrt(&mut self, a: Self::Real) -> Self::Real;
     /// The lesser of `a` and `b`.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
@@ -147,84 +148,82 @@ pub trait Arith: Sized {
         let square = super::vector::dot(self, &v, &v);
         self.sqrt(square)
     }
-    /// `a`, of which the tracer knows that it lies in `low ..= high`, up to rounding.
+    /// `a`, which the tracer knows to lie in `low ..= high`, up to rounding.
     #[inline(always)]
     fn known(&mut self, a: Self::Real, _low: f64, _high: f64) -> Self::Real {
         a
     }
-    /// `a`, a cosine that an author's formula takes. Floating-point machines clamp it to -1 and 1: rounding may
-    /// take it beyond, where the formula need not be defined. Registers need not, for the last entry of a
-    /// function's table stands for all beyond.
+    /// `a`, a cosine that a user-defined formula reads. Floating-point machines clamp it to [-1, 1]: rounding
+    /// may take it beyond, where the formula may be undefined. Registers need no clamp, because the last entry
+    /// of a function's table stands for all values beyond.
     #[inline(always)]
     fn cosine(&mut self, a: Self::Real) -> Self::Real {
         a
     }
-    /// A distance beyond everything: that of no hit.
+    /// The distance of no hit, greater than all others.
     #[inline(always)]
     fn t_max(&mut self, _most: f64) -> Self::Real {
         self.real(f64::MAX)
     }
-    /// `low <= value <= high`, with bounds that may be infinite; a machine whose numbers are coarse
-    /// reaches outwards by what it rounds.
+    /// `low <= value <= high`, with bounds that may be infinite. A machine with coarse numbers widens the
+    /// interval by its rounding error.
     #[inline(always)]
     fn inside(&mut self, low: f64, value: Self::Real, high: f64) -> Self::Bool {
         let low = self.real(low);
         let high = self.real(high);
         super::between(self, low, value, high)
     }
-    /// `table[row] <= value`, reaching outwards as [`Arith::inside`] does.
+    /// `table[row] <= value`, widened like [`Arith::inside`].
     #[inline(always)]
     fn at_least(&mut self, value: Self::Real, table: &[[f64; 1]], row: Self::Index) -> Self::Bool {
         let [low] = self.rows(table, row);
         self.less_equal(low, value)
     }
-    /// `value <= table[row]`, reaching outwards as [`Arith::inside`] does.
+    /// `value <= table[row]`, widened like [`Arith::inside`].
     #[inline(always)]
     fn at_most(&mut self, value: Self::Real, table: &[[f64; 1]], row: Self::Index) -> Self::Bool {
         let [high] = self.rows(table, row);
         self.less_equal(value, high)
     }
-    /// How far a hit is moved towards its face's centre, as a fraction of the way: see
-    /// [`super::INWARD`].
+    /// The fraction of the way to its face's centre by which a hit is moved: see [`super::INWARD`].
     #[inline(always)]
     fn inward(&mut self) -> f64 {
         super::INWARD
     }
-    /// Keeps `a`, though nothing may need it: the paper's records of every primitive.
+    /// Keeps `a` even if nothing reads it: for the paper's records of every primitive.
     #[inline(always)]
     fn record(&mut self, _a: Self::Real) {}
-    /// What `a` is, in the layout of registers.
+    /// Names the numbers `a` in the layout of registers.
     #[inline(always)]
     fn named<const K: usize>(&mut self, _name: Named, _a: &[Self::Real; K]) {}
-    /// What `a` is, in the layout of registers.
+    /// Names the truth value `a` in the layout of registers.
     #[inline(always)]
     fn named_truth(&mut self, _name: Named, _a: Self::Bool) {}
-    /// What `a` is, in the layout of registers.
+    /// Names the integer `a` in the layout of registers.
     #[inline(always)]
     fn named_index(&mut self, _name: Named, _a: Self::Index) {}
-    /// A ray of the path, and what it meets: for machines that are asked about paths, not about
-    /// colours alone.
+    /// Reports a ray of the path and its hit, for machines that need paths and not colours alone.
     #[inline(always)]
     fn traced(&mut self, _depth: usize, _segment: Segment<Self>) {}
-    /// What follows is what this surface alone makes of light, until it is said of none: what is
-    /// wrong there is wrong with its material.
+    /// Sets the surface whose effect on light the next operations compute, or none. Their errors are errors of
+    /// that surface's material.
     #[inline(always)]
     fn of_surface(&mut self, _surface: Option<u32>) {}
-    /// Does `work`. A machine may do it in a function of its own: the tracer is one function, and
-    /// takes a compiler the longer the larger it is.
+    /// Runs `work`. A machine may run it in a function of its own: the tracer is one function, and its compile
+    /// time grows with its size.
     #[inline(always)]
     fn apart<W: Work<Self>>(&mut self, work: W) -> W::Output {
         work.run(self)
     }
-    /// Whether what was computed in a part that is left is asked for again rather than kept.
+    /// True if values of a part are recomputed after the part ends, rather than kept.
     #[inline(always)]
     fn recomputes(&self) -> bool {
         false
     }
-    /// What follows belongs to `part`, until [`Arith::leave`].
+    /// Begins `part`, which lasts until [`Arith::leave`].
     #[inline(always)]
     fn enter(&mut self, _part: Part) {}
-    /// The end of what the last open [`Arith::enter`] began.
+    /// Ends the part that the last open [`Arith::enter`] began.
     #[inline(always)]
     fn leave(&mut self) {}
     /// A function of the expression language.
@@ -251,8 +250,8 @@ pub trait Arith: Sized {
     }
     /// `!a`
     fn not(&mut self, a: Self::Bool) -> Self::Bool;
-    /// Whether `a` may hold for some path. A machine that knows the values may return false and so
-    /// spare work that could change nothing; a circuit always returns true.
+    /// Returns whether `a` may hold on some path. A machine that knows the values may return false to skip work
+    /// that changes nothing. A circuit returns true unless `a` is the constant false.
     fn any(&mut self, a: Self::Bool) -> bool;
     /// `if c { a } else { b }`
     fn select(&mut self, c: Self::Bool, a: Self::Real, b: Self::Real) -> Self::Real;
@@ -270,7 +269,7 @@ pub trait Arith: Sized {
     /// Entry `row` of a table of integers.
     fn entry(&mut self, table: &[u32], row: Self::Index) -> Self::Index;
 
-    /// The index of a sample coordinate, `0..2^bits`: from the path index alone.
+    /// The index of a sample coordinate, `0..2^bits`, computed from the path index.
     fn coordinate(&mut self, coordinate: Coordinate) -> Self::Index;
     /// The cell centre `(index + 1/2) / 2^bits`.
     fn centre(&mut self, index: Self::Index, bits: u32) -> Self::Real;

@@ -1,25 +1,26 @@
 //! The bound on a path's colour: the colour scale of the comparator, in the paper `2^b`.
 //!
-//! The tighter it is, the larger the fraction of good basis states that a pixel has, and the fewer
-//! queries an estimate needs. Let `B_k(s)` bound what a path carries from its vertex `k`, at the place
-//! `s`, without what is emitted there, `W` the weight, `F(s, t)` the factor by which the emission of
-//! `t` counts of a ray from `s`, and `N(s)` what a lamp adds that is sampled there:
+//! A tighter bound gives a pixel a larger fraction of good basis states, so that an estimate needs
+//! fewer queries. Let `B_k(s)` be a bound on the light that a path carries from its vertex `k` at the
+//! place `s`, without the emission there. Let `W` be the weight, `F(s, t)` the factor by which the
+//! emission of `t` counts on a ray from `s`, and `N(s)` the light that a lamp adds if it is sampled at
+//! `s`:
 //!
 //! ```text
 //! B_k(s) = N(s) + W(s) max over t that s sees of (F(s, t) Le(t) + B_{k+1}(t))
 //! ```
 //!
-//! Where no lamp is sampled `N` is 0 and `F` is 1. A path from the camera carries at most the
-//! greatest `B_0` of what the camera sees, and with `Le` where it may meet a lamp at once. Places are
-//! those of [`Places`]: sides of faces, or surfaces.
+//! If no lamp is sampled, `N` is 0 and `F` is 1. A path from the camera carries at most the greatest
+//! `B_0` of the places that the camera sees, plus `Le` if the path may meet a lamp directly. Places
+//! are those of [`Places`]: sides of faces, or surfaces.
 
 use super::bsdf::ScatterStage;
 use super::places::Places;
 use super::refraction::Refraction;
 
-/// An upper bound of the colour of every path, per channel; without what the primary ray meets
-/// emit, unless `direct`. With `refraction`, its bound takes the place of the weights of glass whose
-/// refractions it tells of.
+/// An upper bound of the colour of every path, per channel. It includes the emission at the primary
+/// hit only if `direct`. If there is a `refraction`, its bound replaces the weights of the glass
+/// surfaces for which it holds.
 pub(crate) fn colour<const C: usize>(
     places: &Places,
     radiance: &[[f64; C]],

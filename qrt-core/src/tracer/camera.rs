@@ -9,23 +9,25 @@ use glam::{DVec2, DVec3};
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraStage {
-    /// Whether rays start at one point and fan out; otherwise they start at many and run parallel.
+    /// True if rays start at one point and fan out; false if they start at many and are parallel.
     pub perspective: bool,
-    /// What does not depend on the film position, in stage units: the eye, or the common direction.
+    /// The part of rays that does not depend on the film position, in stage units: the eye, or the
+    /// direction.
     pub fixed: [f64; 3],
-    /// What depends on the film position, at the film's upper left corner: the direction, or the
-    /// origin.
+    /// The part of rays that depends on the film position, at the film's upper left corner: the
+    /// direction, or the origin.
     pub corner: [f64; 3],
     /// The change of `corner` per column of the film.
     pub column: [f64; 3],
     /// The change of `corner` per row of the film.
     pub row: [f64; 3],
-    /// Whether primary directions must have unit length.
+    /// True if primary directions must have unit length.
     pub unit: bool,
-    /// A bound on the distance of whatever a primary ray meets, in lengths of its direction.
+    /// A bound on the distance of every hit of a primary ray, in lengths of its direction.
     pub t_max: f64,
-    /// The number of the plane that primary rays leave, which they do not meet: where the film lies on
-    /// one, that; otherwise [`NO_PLANE`]. (An eye may be on several: their offsets say so.)
+    /// The number of the plane that primary rays leave and do not meet: the plane that the film lies
+    /// on, if there is one, otherwise [`NO_PLANE`]. (An eye may be on several planes; their offsets
+    /// pass exactly through it.)
     pub from: u32,
 }
 
@@ -42,17 +44,17 @@ pub(crate) fn ray_origins(camera: &Camera, film: Film) -> Vec<DVec3> {
     }
 }
 
-/// How a lamp stands before the camera.
+/// The visibility of a lamp from the camera.
 pub(super) enum Seen {
     /// Its front cannot be seen.
     Not,
     /// Within this convex outline on the film, in pixels.
     Within(Vec<DVec2>),
-    /// It reaches behind the eye: anywhere.
+    /// It reaches behind the eye, so it may be seen anywhere.
     Anywhere,
 }
 
-/// From points of the scene to the film.
+/// The projection of points of the scene to the film.
 pub(super) struct View {
     basis: Basis,
     film: DVec2,
@@ -66,7 +68,7 @@ impl View {
         }
     }
 
-    /// Where a polygon is seen whose front, `(v1 - v0) x (v2 - v0)`, emits.
+    /// The outline on the film of a polygon whose front, `(v1 - v0) x (v2 - v0)`, emits.
     pub(super) fn outline(&self, corners: &[DVec3]) -> Seen {
         let Basis {
             eye,
@@ -77,7 +79,7 @@ impl View {
             perspective,
         } = self.basis;
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        // Well behind the plane, so that no rounding brings the eye before it.
+        // Only if the eye is well behind the plane, so that rounding cannot bring it in front.
         let toward = if perspective {
             (eye - corners[0]).normalize_or_zero()
         } else {

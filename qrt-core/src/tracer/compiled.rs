@@ -1,8 +1,8 @@
 //! Expressions in sample coordinates and angles, along a path.
 //!
-//! What depends on lattice points alone need not be computed along a path. Of an expression in
-//! `u` and `v`, every subexpression of one coordinate becomes a table over that coordinate's
-//! indices (a QROM, in a circuit), and only what mixes coordinates or angles is arithmetic.
+//! Values that depend on lattice points alone need not be computed along a path. In an expression in `u`
+//! and `v`, every subexpression of one coordinate becomes a table over that coordinate's indices (a
+//! QROM, in a circuit). Only subexpressions that mix coordinates or angles are arithmetic.
 
 use super::sampled::TABLE_BITS;
 use super::{Arith, Axis, Coordinate, Sampled};
@@ -27,7 +27,7 @@ pub(crate) struct Compiled {
     roots: Vec<usize>,
 }
 
-/// The angles an expression may ask for, by their names in it.
+/// The angles that an expression may read, by their names in it.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_field_names)]
 pub(crate) struct Angles<R> {
@@ -46,8 +46,9 @@ struct Compiler {
 }
 
 impl Compiled {
-    /// Compiles `expressions` for coordinates of `bits`, whose tables are stored if they have at most so
-    /// many; `cos_i` is `|phi_z|` where that is given, and one of the angles else.
+    /// Compiles `expressions` for coordinates of `bits` bits. Tables of at most `most_stored` index bits
+    /// are stored. If `cos_i` is given, it is `phi_z`, whose absolute value replaces the variable;
+    /// otherwise that is an angle.
     pub(crate) fn new(
         expressions: &[&Expr],
         (bits, most_stored): ([u32; 2], u32),
@@ -117,7 +118,7 @@ impl Compiled {
                 Node::Number(value) => cx.real(*value),
                 Node::Variable(Variable::CosO) => angles.cos_o,
                 Node::Variable(Variable::CosI) => angles.cos_i,
-                // `u` and `v` alone are tables.
+                // `u` and `v` are tables, so they do not occur here.
                 Node::Variable(Variable::CosA | Variable::U | Variable::V) => angles.cos_a,
                 Node::Add(..) => cx.add(values[a], values[b]),
                 Node::Sub(..) => cx.sub(values[a], values[b]),
@@ -227,7 +228,7 @@ impl Compiler {
             return Some(self.constant(value(0.5)));
         }
         let value = move |index: u32| value(cell_centre(index, bits));
-        // A function that does not vary over its cells is a constant, whatever it looks like.
+        // A function that has one value in all cells is a constant, whatever its expression is.
         let first = value(0);
         if bits <= TABLE_BITS && (1..1 << bits).all(|index| value(index) == first) {
             return Some(self.constant(first));
@@ -263,12 +264,12 @@ impl Compiler {
         self.push(Step::Node(*node, operands, most))
     }
 
-    /// A number.
+    /// Adds a number.
     fn constant(&mut self, value: f64) -> usize {
         self.push(Step::Node(Node::Number(value), [0; 4], value.abs()))
     }
 
-    /// Adds a step, or finds the equal one.
+    /// Adds a step, or finds an equal one.
     fn push(&mut self, step: Step) -> usize {
         let equal = |other: &Step| match (&step, other) {
             (Step::Sampled(a, f), Step::Sampled(b, g)) => a == b && f.same(g),

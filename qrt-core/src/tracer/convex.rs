@@ -1,12 +1,12 @@
 //! Convex bodies among the faces of a scene.
 //!
-//! Faces that meet at whole edges and have all of their corners on one side of each of their planes
-//! are the surface of a convex body, or a part of it. A ray is within the body while it is behind all
-//! of its planes: from the last plane that it enters to the first that it leaves (Cyrus & Beck
-//! 1978). That takes no point of a plane, no edge, and leaves no cracks.
+//! Faces that meet at whole edges and have all of their corners on one side of each of their planes are
+//! the surface of a convex body, or a part of it. A ray is within the body while it is behind all of its
+//! planes: from the last plane that it enters to the first that it leaves (Cyrus & Beck 1978). This needs
+//! no point on a plane and no edge test, and leaves no cracks.
 //!
-//! Where faces are missing, as the underside of a box that stands on a floor, the edges of the hole lie
-//! in a plane of their own, which bounds the body as the others do and has no face.
+//! If faces are missing, such as the underside of a box that stands on a floor, the edges of the hole lie
+//! in a plane of their own. This plane bounds the body like the others, and has no face.
 
 use super::geometry::{Geometry, Plane};
 use super::polygon::plane_of;
@@ -14,7 +14,7 @@ use crate::polygons::{Outlines, SAME_PLANE};
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// More corners compared with planes than this: bodies aren't looked for.
+/// Most comparisons of a corner with a plane. Beyond this, no more bodies are searched.
 const MOST_COMPARED: usize = 1 << 24;
 
 /// The cosine of the least angle between two faces of a body.
@@ -29,24 +29,24 @@ pub(super) struct Body {
 /// A plane that bounds a body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bound {
-    /// Its number in [`Geometry::planes`]; one beyond these where no face of the scene is on it.
+    /// Its number in [`Geometry::planes`]; a number beyond these if no face of the scene is on it.
     pub(super) number: usize,
     /// The plane itself.
     pub(super) plane: Plane,
-    /// Whether the body is where `p[axis] + a p[axis + 1] + b p[axis + 2]` is below the offset.
+    /// True if the body is where `p[axis] + a p[axis + 1] + b p[axis + 2]` is below the offset.
     pub(super) below: bool,
-    /// The body's faces on the plane, as places in [`Geometry::faces`]; none where they are missing.
+    /// The body's faces on the plane, as places in [`Geometry::faces`]; none if they are missing.
     pub(super) faces: Vec<usize>,
 }
 
-/// How far a point is from a plane, along the main axis and in its direction.
+/// The signed distance of a point from a plane, along the plane's main axis.
 pub(super) fn height(plane: &Plane, point: DVec3) -> f64 {
     let [along, first, second] = [0, 1, 2].map(|k| point[(plane.axis + k) % 3]);
     along + (plane.form[0] * first + plane.form[1] * second) - plane.offset
 }
 
 impl Bound {
-    /// How far a point is outside, along the plane's main axis; below zero inside.
+    /// The distance of a point from the inside, along the plane's main axis; negative inside.
     pub(super) fn outside(&self, point: DVec3) -> f64 {
         let height = height(&self.plane, point);
         if self.below { height } else { -height }
@@ -54,7 +54,7 @@ impl Bound {
 }
 
 impl Body {
-    /// Whether any of the polygon is inside by more than `tolerance`.
+    /// True if any part of the polygon is inside by more than `tolerance`.
     pub(super) fn is_entered_by(&self, outline: &[DVec3], tolerance: f64) -> bool {
         let mut rest = outline.to_vec();
         for bound in &self.bounds {
@@ -90,7 +90,7 @@ fn clipped(outline: &[DVec3], outside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     kept
 }
 
-/// The corners of a geometry's faces by number, equal ones once, and who has which edge.
+/// The corners of a geometry's faces by number, each once, and the faces at each edge.
 pub(super) struct Edges {
     /// By place in [`Geometry::faces`].
     pub(super) corners: Vec<Vec<u32>>,
@@ -112,7 +112,7 @@ impl Edges {
             let corners: Vec<u32> = outline
                 .iter()
                 .map(|corner| {
-                    // Zero has two spellings.
+                    // 0 and -0 are one coordinate.
                     let key = corner.to_array().map(|x| (x + 0.0).to_bits());
                     *numbers.entry(key).or_insert_with(|| {
                         edges.points.push(*corner);
@@ -143,7 +143,7 @@ impl Edges {
         self.at.get(&edge).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether two faces (by place) that have this edge fold back upon each other there.
+    /// True if two `faces` (by place) at this edge fold back upon each other there.
     pub(super) fn fold(&self, geometry: &Geometry, edge: [u32; 2], faces: [usize; 2]) -> bool {
         let [start, end] = self.ends(edge);
         let [a, b] = faces.map(|place| {
@@ -162,7 +162,7 @@ fn of_outline(corners: &[u32]) -> impl Iterator<Item = [u32; 2]> {
     })
 }
 
-/// Sets of numbers that are one where they were joined.
+/// Disjoint sets of numbers, which can be joined.
 struct Groups(Vec<usize>);
 
 impl Groups {
@@ -229,7 +229,7 @@ struct Finder<'a> {
     geometry: &'a Geometry,
     edges: &'a Edges,
     tolerance: f64,
-    /// How many more corners are compared with planes.
+    /// The number of comparisons of a corner with a plane that are left.
     budget: &'a mut usize,
     virtual_planes: &'a mut Vec<Plane>,
 }
@@ -253,7 +253,7 @@ impl Finder<'_> {
             });
             by_plane[at].1.push(place);
         }
-        // Two planes have an edge in common, and edge tests do for that.
+        // Two planes share an edge, for which edge tests suffice.
         if by_plane.len() < 3 {
             return None;
         }
@@ -275,7 +275,7 @@ impl Finder<'_> {
             let below = self.side(&plane, &corners)?;
             let number = self.number(&mut plane);
             if bounds.iter().any(|bound| bound.number == number) {
-                // A face of the body does not fill its side of it.
+                // The hole lies on the plane of a face: the faces do not fill their side of the body.
                 return None;
             }
             bounds.push(Bound {
@@ -288,8 +288,8 @@ impl Finder<'_> {
         Some(Body { bounds })
     }
 
-    /// On which side of the plane all these corners are: whether below it. None if on both, or on
-    /// the plane.
+    /// Returns true if all `corners` are below the plane, false if all are above it. None if they are on
+    /// both sides, or on the plane.
     fn side(&mut self, plane: &Plane, corners: &[u32]) -> Option<bool> {
         *self.budget = self.budget.checked_sub(corners.len())?;
         let heights = corners
@@ -303,7 +303,7 @@ impl Finder<'_> {
         }
     }
 
-    /// The corners of each hole: of edges that have one face. None where an edge has more than two, or
+    /// The corners of each hole, whose edges have one face. None if an edge has more than two faces, or
     /// two that fold back upon each other.
     fn holes(&self, component: &[usize]) -> Option<Vec<Vec<u32>>> {
         let mut open: Vec<[u32; 2]> = Vec::new();
@@ -336,8 +336,8 @@ impl Finder<'_> {
         )
     }
 
-    /// The plane of these corners; none of corners on one line, which leave no hole. Fails where they are
-    /// on no plane.
+    /// The plane of `corners`; `Some(None)` if they are on one line, which leaves no hole. None if they
+    /// are on no plane.
     #[allow(clippy::option_option)] // No hole, and no body.
     fn plane_through(&self, corners: &[u32]) -> Option<Option<Plane>> {
         let points = || corners.iter().map(|&c| self.edges.points[c as usize]);
@@ -358,7 +358,7 @@ impl Finder<'_> {
         flat.then_some(Some(plane))
     }
 
-    /// The number of a plane: of the scene's own if it is one, which then stands for it.
+    /// The number of `plane`. If it is one of the scene's own planes, that one replaces it.
     fn number(&mut self, plane: &mut Plane) -> usize {
         let same = |other: &Plane| {
             let values = |p: &Plane| [p.form[0], p.form[1], p.offset];
@@ -387,7 +387,7 @@ impl Finder<'_> {
     }
 }
 
-/// Whether faces that are not of `body` cover one of `faces` (by place), all of which are on one plane.
+/// True if other faces on the plane cover one of `faces` (by place), all of which are on it.
 pub(super) fn covered(geometry: &Geometry, plane: usize, faces: &[usize]) -> bool {
     let range = geometry.planes[plane].faces.clone();
     let outline = |place: usize| &*geometry.corners[geometry.faces[place].label as usize];

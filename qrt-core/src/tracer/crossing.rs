@@ -1,4 +1,4 @@
-//! Where a ray crosses a plane.
+//! The crossing of a ray and a plane.
 
 use super::Arith;
 use super::ray::Ray;
@@ -27,7 +27,7 @@ pub struct AxisPermuted<A: Arith> {
     pub origin_across: [A::Real; 2],
     /// The direction's components along the next axis and the one after it.
     pub direction_across: [A::Real; 2],
-    /// A bound on the distance of whatever the ray meets: see [`Ray::t_max`].
+    /// A bound on the distance of every hit of the ray: see [`Ray::t_max`].
     pub t_max: f64,
 }
 
@@ -69,9 +69,9 @@ impl<A: Arith> AxisPermuted<A> {
     }
 }
 
-/// Where a ray crosses a plane.
+/// The crossing of a ray and a plane.
 pub struct Crossing<A: Arith> {
-    /// Whether the ray crosses the plane ahead of its origin.
+    /// True if the ray crosses the plane ahead of its origin.
     pub ahead: A::Bool,
     /// The distance of the crossing, in lengths of the ray's direction.
     pub distance: A::Real,
@@ -79,14 +79,14 @@ pub struct Crossing<A: Arith> {
     pub point: [A::Real; 2],
 }
 
-/// How fast `ray` rises along the main axis of planes of this form, seen along the plane.
+/// The rate at which `ray` rises along the main axis of planes of this form, relative to the plane.
 #[inline(always)]
 pub(super) fn slope<A: Arith>(cx: &mut A, form: [A::Real; 2], ray: &AxisPermuted<A>) -> A::Real {
     let across = weighted(cx, form, ray.direction_across);
     math!(cx, ray.direction + across)
 }
 
-/// How far the plane of this form and offset is above the start of `ray`, along the main axis.
+/// The height of the plane of this form and offset above the start of `ray`, along the main axis.
 #[inline(always)]
 pub(super) fn rise<A: Arith>(
     cx: &mut A,
@@ -98,7 +98,7 @@ pub(super) fn rise<A: Arith>(
     math!(cx, offset - (ray.origin + height))
 }
 
-/// Where `ray` crosses the plane of this form (see [`super::Plane`]) and offset.
+/// The crossing of `ray` and the plane of this form (see [`super::Plane`]) and offset.
 #[inline(always)]
 pub fn cross<A: Arith>(
     cx: &mut A,

@@ -1,9 +1,9 @@
 //! The face table: a face whose number is in superposition is looked up in a QROM.
 //!
-//! [`super::Geometry`] holds faces as constants: a machine that asks about all of them in turn
+//! [`super::Geometry`] holds faces as constants, for a machine that tests all of them in turn and
 //! folds them into its code. A [`FaceTable`] holds the same faces as rows of tables, for a machine
-//! that asks about one face whose number is a register's. The intersection is the same: where a ray
-//! crosses a plane ([`super::cross`]), and whether that lies within the edges.
+//! that tests one face whose number is in a register. The intersection is the same: the crossing of
+//! a ray and a plane ([`super::cross`]), and the test that it lies within the edges.
 
 use super::crossing::{AxisPermuted, Crossing, cross};
 use super::geometry::{EdgeTest, NO_FACE};
@@ -12,12 +12,12 @@ use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Stage};
 use std::cell::Cell;
 
-/// Faces in the order in which the running nearest asks about them: of those equally far, the first
+/// Faces in the order in which the running nearest tests them. Of equally distant faces, the first
 /// is the nearest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceTable {
-    /// Where rays start, if all of them start at one point: what of planes and edges depends on it
-    /// is in the tables.
+    /// The point where all rays start, if there is one, otherwise the origin. The parts of planes
+    /// and edges that depend on it are in the tables.
     viewpoint: [f64; 3],
     /// The main axis of the plane of each face.
     axes: Vec<u32>,
@@ -34,7 +34,7 @@ pub struct FaceTable {
 /// `low <= p[main] + slope p[other] <= high`.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Slot {
-    /// Whether the main coordinate is the second of the two.
+    /// For each face, 1 if the main coordinate is the second of the two, else 0.
     second: Vec<u32>,
     slope: Vec<[f64; 1]>,
     low: Vec<[f64; 1]>,
@@ -79,7 +79,7 @@ impl FaceTable {
                 let edge_tests =
                     edge_tests.map(|edge_test| Row::new(edge_test, [seen(1), seen(2)]));
                 let mut edge_tests: Vec<Row> = edge_tests.collect();
-                // Alike ones in one slot: a column of equal entries costs nothing.
+                // Put similar tests into one slot: a column of equal entries costs nothing.
                 edge_tests.sort_by_key(|row| row.second);
                 let mut edge_tests = edge_tests.into_iter();
                 for slot in &mut listing.slots {
@@ -96,12 +96,12 @@ impl FaceTable {
         listing
     }
 
-    /// How many faces the table has.
+    /// Number of faces of the table.
     pub fn len(&self) -> usize {
         self.axes.len()
     }
 
-    /// Whether the table has no faces.
+    /// True if the table has no faces.
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
     }
@@ -111,8 +111,8 @@ impl FaceTable {
         &self.labels
     }
 
-    /// Whether a ray of the camera meets face number `face`, and at which distance. A number beyond
-    /// the last face meets nothing.
+    /// Returns whether a ray of the camera meets face number `face`, and at which distance. A
+    /// number beyond the last face meets nothing.
     #[inline(always)]
     pub fn meet<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index) -> (A::Bool, A::Real) {
         let crossing = self.cross(cx, ray, face);
@@ -123,7 +123,7 @@ impl FaceTable {
         (math!(cx, (meets && !starts) && listed), crossing.distance)
     }
 
-    /// The hit of a ray of the camera on face number `face`; none if that is the number of faces.
+    /// The hit of a ray of the camera on face number `face`; none if `face` is the number of faces.
     #[inline(always)]
     fn hit<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, face: A::Index, wanted: A::Bool) -> Hit<A> {
         let crossing = self.cross(cx, ray, face);
@@ -144,7 +144,7 @@ impl FaceTable {
     }
 }
 
-/// The edges of a face whose number is a register's.
+/// The edges of a face whose number is in a register.
 struct Looked<'a, A: Arith> {
     list: &'a FaceTable,
     face: A::Index,
@@ -174,8 +174,8 @@ impl<A: Arith> Edges<A> for Looked<'_, A> {
     }
 }
 
-/// The nearest intersection, found before: the first ray's is given, as a face's number in a
-/// [`FaceTable`] or the number of its faces for none; those of the others are looked for.
+/// Finds nearest intersections, of which the first ray's is an input: a face's number in a
+/// [`FaceTable`], or the number of its faces for none. The hits of the other rays are searched.
 pub struct PrimaryHitGiven<'a, A: Arith, N> {
     list: &'a FaceTable,
     first: Cell<Option<A::Index>>,
@@ -183,7 +183,8 @@ pub struct PrimaryHitGiven<'a, A: Arith, N> {
 }
 
 impl<'a, A: Arith, N: Nearest<A>> PrimaryHitGiven<'a, A, N> {
-    /// The first ray meets face number `first`; `others` finds what the others meet.
+    /// Creates it for rays of which the first meets face number `first`. `others` finds the other
+    /// hits.
     pub fn new(list: &'a FaceTable, first: A::Index, others: &'a N) -> Self {
         Self {
             list,
@@ -233,11 +234,11 @@ impl Row {
         high: f64::INFINITY,
     };
 
-    /// The row of `edge_test`, of a plane of which `seen` is the viewpoint's place.
+    /// The row of `edge_test`. `seen` is the viewpoint's place on the plane's two other axes.
     fn new(edge_test: &EdgeTest, seen: [f64; 2]) -> Self {
         let [a, b] = edge_test.form;
         let away = a * seen[0] + b * seen[1];
-        // The greater of the two is 1.
+        // The coefficient with the greater magnitude is 1.
         let second = a != 1.0;
         Self {
             second: u32::from(second),
@@ -256,7 +257,7 @@ impl Slot {
         self.high.push([row.high]);
     }
 
-    /// Gives every face a bound where some have one.
+    /// Gives every face a finite bound, in a column in which some faces have one.
     fn close(&mut self, far: f64) {
         for (column, sign) in [(&mut self.low, -1.0), (&mut self.high, 1.0)] {
             if column.iter().any(|[bound]| bound.is_finite()) {

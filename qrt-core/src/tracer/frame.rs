@@ -8,9 +8,9 @@ use super::{Arith, Named, Part, Quantity, Stage};
 
 /// The colour of each path, per channel, in radiance.
 ///
-/// *Generate Ray*, and for each depth *Find Intersection*, emission and scattering. Reads sample
-/// coordinates and the pixel from `cx`; `nearest` is the stage's own geometry, or something
-/// faster in front of it.
+/// *Generate Ray*, and for each depth *Find Intersection*, emission and scattering. It reads sample
+/// coordinates and the pixel from `cx`. `nearest` is the stage's own geometry, or a faster search
+/// in front of it.
 #[inline(always)]
 pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     cx: &mut A,
@@ -27,7 +27,8 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     cx.leave();
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
-    // Where the ray started, if lamps were sampled there and its own emission is weighed.
+    // The departure of the ray, if lamps were sampled at its start and the emission that it meets
+    // is weighted.
     let mut departure: Option<(&LightStage<C>, Departure<A>)> = None;
     for depth in 0..stage.depths() {
         let named = |quantity| Named { depth, quantity };
@@ -37,7 +38,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             cx.named(named(Quantity::Throughput), &throughput);
         }
         let scatter = stage.scatters.get(depth);
-        // What a ray meets may count nothing, where lamps were sampled.
+        // If lamps were sampled, the emission that a ray meets may not count.
         let counts = match depth.checked_sub(1) {
             None => stage.direct,
             Some(before) => {
@@ -151,7 +152,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         };
         vertex.stand(&frame);
         let origin = if cx.recomputes() {
-            // Where it starts is a part by itself, after which nobody asks for the ray before it.
+            // The start is a part of its own, after which the previous ray is no longer needed.
             let origin = start(cx, &ray, hit.distance, &frame);
             cx.leave();
             cx.enter(Part::GenerateRay(depth + 1));
@@ -188,7 +189,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     colour
 }
 
-/// Where the next ray starts, on a face with this row of [`Stage::frames`].
+/// The start of the next ray, on a face with this row of [`Stage::frames`].
 #[inline(always)]
 pub(super) fn start<A: Arith>(
     cx: &mut A,
@@ -204,7 +205,7 @@ pub(super) fn start<A: Arith>(
     ]
 }
 
-/// Where the next ray starts, along one axis: the point of `ray` at `distance`, moved a little
+/// The start of the next ray, along one axis: the point of `ray` at `distance`, moved a little
 /// towards the `centre` of its face.
 #[inline(always)]
 fn start_along<A: Arith>(

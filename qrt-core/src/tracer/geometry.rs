@@ -1,8 +1,9 @@
-//! Polygons made ready for intersection: planes, the faces on them, and shading frames.
+//! Polygons prepared for intersection: planes, the faces on them, and shading frames.
 //!
-//! Everything is in *stage units*: the geometry's bounding box is centred at the origin and scaled
-//! by a power of two so that its largest half extent lies in `(1/2, 1]`. A scene a million units
-//! across or at a billion from the origin is traced with the same precision as one at home.
+//! Everything is in *stage units*: the geometry's bounding box is centred at the origin and scaled by a
+//! power of two so that its largest half extent lies in `(1/2, 1]`. A scene that is a million units
+//! across, or a billion units from the origin, is traced with the same precision as a scene near the
+//! origin.
 
 use super::polygon::{edge_tests, frame, plane_of};
 use crate::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
@@ -12,26 +13,26 @@ use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-/// The face that a ray meets where it meets none.
+/// The face number of a ray that meets no face.
 pub const NO_FACE: u32 = u32::MAX;
 
-/// The plane that a camera ray leaves, unless all of them start on one: none.
+/// The plane number of camera rays that leave no plane: all, unless all of them start on one plane.
 pub const NO_PLANE: u32 = u32::MAX;
 
-/// How far edges reach outwards, in stage units, for rays that start within one unit of the
-/// origin: a few ulps, so that neighbours overlap rather than leave cracks.
+/// The outward tolerance of edges in stage units, for rays that start within one unit of the origin. It is
+/// a few ulps, so that neighbours overlap and leave no cracks.
 pub const TOLERANCE: f64 = 1.0 / (1_u64 << 49) as f64;
 
-/// How far a hit is moved from its face's edge towards the face's centre, as a fraction of the way:
-/// more than the edges' tolerance, less than any picture shows. A ray that starts there stands
-/// strictly inside the face, so it cannot slip past a neighbour that meets it at that edge.
+/// The fraction of the way to its face's centre by which a hit is moved. It is more than the edges'
+/// tolerance, and less than any picture shows. A ray that starts there starts strictly inside the face, so
+/// it cannot slip past a neighbour that meets it at that edge.
 pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 
-/// Up to so many pairs of a plane and a corner are compared: enough for scenes whose planes are all
-/// tried for each ray.
+/// Most pairs of a plane and a corner that are compared: enough for scenes whose planes are all tested for
+/// each ray.
 const MOST_COMPARED: usize = 1 << 24;
 
-/// The eye stands on a plane that is nearer than this, in stage units and relative to where it is.
+/// The eye is on a plane if it is nearer than this, in stage units and relative to 1 plus its height.
 const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
 
 /// `low <= a p[axis + 1] + b p[axis + 2] <= high`, for a point of a plane with main axis `axis`
@@ -61,14 +62,14 @@ pub struct Plane {
     pub faces: Range<usize>,
     /// The numbers of its emitting faces: they are counted in the order of [`Geometry::faces`].
     pub emitters: Range<u32>,
-    /// Whether all corners of the scene are on one side of the plane or on it: nothing on it ever
+    /// True if all corners of the scene are on one side of the plane or on it. Nothing on the plane then
     /// stands between two points of the scene.
     pub outermost: bool,
 }
 
 impl Plane {
-    /// The offset of the plane of this form through `point`, as the tracer computes it: the difference
-    /// from [`Plane::offset`] is then zero, not almost.
+    /// The offset of the plane of this form through `point`, computed as the tracer does. The difference
+    /// from [`Plane::offset`] is then exactly zero.
     fn height(&self, point: [f64; 3]) -> f64 {
         let [along, first, second] = [0, 1, 2].map(|k| point[(self.axis + k) % 3]);
         let [a, b] = self.form;
@@ -81,7 +82,7 @@ impl Plane {
         (self.offset - height).abs() <= ON_PLANE * (1.0 + height.abs())
     }
 
-    /// Orders planes by where they are: by main axis, coefficients and offset.
+    /// Compares planes by main axis, coefficients and offset.
     fn cmp_place(&self, other: &Self) -> Ordering {
         let key = |plane: &Self| [plane.form[0], plane.form[1], plane.offset];
         let pairs = key(self).into_iter().zip(key(other));
@@ -91,18 +92,17 @@ impl Plane {
     }
 }
 
-/// A convex polygon on a plane: where all half-plane edge tests pass.
+/// A convex polygon on a plane: the points that pass all half-plane edge tests.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// The face's number in the order of the scene.
     pub label: u32,
-    /// Whether the face emits.
+    /// True if the face emits.
     pub emits: bool,
     /// True if the face emits nothing and a later face of its plane emits, which this one hides where
     /// they overlap.
     pub hides_emitter: bool,
-    /// How many emitting faces of its plane come before the first that this one may cover, if it may
-    /// cover any.
+    /// Number of emitting faces of its plane before the first that this one may cover, if any.
     pub covers: Option<u32>,
     /// The half-plane edge tests. Pairs of parallel edges share one: two for a parallelogram, three
     /// for a triangle.
@@ -172,16 +172,16 @@ pub struct Geometry {
     pub centre: DVec3,
     /// Stage units per scene unit: a power of two.
     pub scale: f64,
-    /// How far edges reach outwards, in stage units: [`TOLERANCE`], and more where rays come from
-    /// afar and so arrive less precisely.
+    /// The outward tolerance of edges in stage units: [`TOLERANCE`], or more if rays start far away and
+    /// arrive less precisely.
     pub tolerance: f64,
-    /// How many faces emit.
+    /// Number of faces that emit.
     pub emitters: u32,
 }
 
 impl Geometry {
-    /// Makes `polygons` ready for intersection; `emits` tells which emit, and `reach` are points
-    /// (the eye) from which rays start too.
+    /// Prepares `polygons` for intersection. `emits` is true for those that emit. `reach` are further
+    /// points from which rays start (the eye).
     pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
         let (centre, scale) = stage_units(polygons.iter().flat_map(|polygon| &polygon.vertices));
         let staged = |p: DVec3| (p - centre) * scale;
@@ -252,8 +252,8 @@ impl Geometry {
         known: &mut HashMap<[i64; 4], Vec<u32>>,
         on_plane: &mut Vec<Vec<Face>>,
     ) -> u32 {
-        // Buckets so narrow that few planes that are not one fit into them; a plane near a bucket's edge
-        // is looked for in the bucket beyond it, too.
+        // Buckets are so narrow that few distinct planes share one. A plane near a bucket's edge is also
+        // searched in the bucket beyond the edge.
         let width = SAME_PLANE * 4.0;
         let values = |plane: &Plane| [plane.form[0], plane.form[1], plane.offset];
         let key = |shift: [f64; 3]| {
@@ -307,8 +307,8 @@ impl Geometry {
         }
     }
 
-    /// Tells which of these faces, which are on one plane of this main axis, hide or may cover a later one
-    /// that emits.
+    /// Finds the faces that hide or may cover a later face that emits. All `faces` are on one plane, whose
+    /// main axis is `axis`.
     fn cover(&self, axis: usize, faces: &mut [Face]) {
         let outline = |face: &Face| &*self.corners[face.label as usize];
         let emitting: Vec<usize> = (0..faces.len()).filter(|&n| faces[n].emits).collect();
@@ -365,7 +365,7 @@ impl Geometry {
         self.find_outermost();
     }
 
-    /// Tells which planes have the whole scene on one side.
+    /// Finds the planes that have the whole scene on one side.
     fn find_outermost(&mut self) {
         let corners: Vec<[f64; 3]> = self.corners.iter().flatten().map(DVec3::to_array).collect();
         if self.planes.len() * corners.len() > MOST_COMPARED {

@@ -23,7 +23,7 @@ impl EdgeTest {
     }
 }
 
-/// Whether `point` passes every half-plane edge test.
+/// True if `point` passes every half-plane edge test.
 #[inline(always)]
 pub(super) fn within<A: Arith>(
     cx: &mut A,
@@ -57,7 +57,7 @@ pub(super) fn within<A: Arith>(
 
 /// The edges of a face, as a machine holds them: the same for all paths, or looked up.
 pub(crate) trait Edges<A: Arith> {
-    /// Whether this point of the face's plane is within all edges.
+    /// True if `point` of the face's plane is within all edges.
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool;
 }
 
@@ -68,7 +68,7 @@ impl<A: Arith> Edges<A> for [EdgeTest] {
     }
 }
 
-/// Whether a ray with this crossing of a face's plane meets the face.
+/// True if a ray with this crossing of a face's plane meets the face.
 #[inline(always)]
 pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
     cx: &mut A,
@@ -80,7 +80,7 @@ pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
 }
 
 impl Geometry {
-    /// Where `ray` crosses plane `number`, unless it leaves it.
+    /// The crossing of `ray` and plane `number`, unless the ray leaves that plane.
     #[inline(always)]
     pub(super) fn cross<A: Arith>(
         &self,
@@ -100,7 +100,7 @@ impl Geometry {
         }
     }
 
-    /// Whether `ray` meets face number `number`, and at which distance.
+    /// Returns whether `ray` meets face number `number`, and at which distance.
     #[inline(always)]
     pub(crate) fn meet<A: Arith>(
         &self,
@@ -115,8 +115,8 @@ impl Geometry {
         (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
     }
 
-    /// Whether it is `hidden` already, or one of these faces of plane `number` stands between the start
-    /// of `ray` and its end, one length of its direction away, on emitting face number `lamp`.
+    /// True if `hidden` is, or if one of these faces of plane `number` stands between the start of `ray`
+    /// and its end. The end is one length of its direction away, on emitting face number `lamp`.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // The ray is permuted once for many planes.
     pub(super) fn occluded_by<'f, A: Arith>(
@@ -130,8 +130,8 @@ impl Geometry {
         mut hidden: A::Bool,
     ) -> A::Bool {
         let here = self.planes[number].emitters.clone();
-        // Where the end is on this plane, the ray crosses it nowhere before: it may only be that
-        // another face covers the lamp there. An outermost plane it crosses nowhere.
+        // If the ray ends on this plane, it does not cross the plane before; only another face may cover
+        // the lamp there. A ray between points of the scene crosses no outermost plane.
         let all_here = here.len() == self.emitters as usize;
         let passed = all_here || self.planes[number].outermost;
         if passed && faces.clone().all(|face| face.covers.is_none()) {
@@ -201,7 +201,7 @@ impl<A: Arith> Running<A> {
         }
     }
 
-    /// Meets these faces of plane `number`.
+    /// Updates the nearest face with these faces of plane `number`.
     #[inline(always)]
     fn meet_all<'f>(
         &mut self,
@@ -220,7 +220,7 @@ impl<A: Arith> Running<A> {
         cx.leave();
     }
 
-    /// The ray crosses the plane of `face`.
+    /// Updates the nearest face with `face`, whose plane the ray crosses.
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
         let meets = meets(cx, crossing, &*face.edge_tests);
@@ -232,11 +232,11 @@ impl<A: Arith> Running<A> {
 }
 
 impl Geometry {
-    /// The nearest emitter on the ray, hidden by faces of other planes or not.
+    /// The nearest emitter on the ray, even if faces of other planes hide it.
     ///
-    /// Of faces of one plane the first in the list is met, so that those before an emitter
-    /// ([`Face::hides_emitter`]) take part: where one of them is the nearest, it is the hit, and emits
-    /// nothing.
+    /// Of the faces of one plane, the first in the list is met. Faces before an emitter
+    /// ([`Face::hides_emitter`]) therefore take part: if one of them is the nearest, it is the hit, and
+    /// emits nothing.
     #[inline(always)]
     pub fn nearest_emitter<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut nearest = Running::new(cx, ray.t_max);
@@ -255,7 +255,7 @@ impl Geometry {
 }
 
 impl<A: Arith> Nearest<A> for Geometry {
-    /// All planes in turn.
+    /// Tests all planes in turn.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut nearest = Running::new(cx, ray.t_max);
@@ -269,8 +269,8 @@ impl<A: Arith> Nearest<A> for Geometry {
         Hit::new(cx, nearest.distance, nearest.face, wanted)
     }
 
-    /// The nearest emitter, and then whether anything hides it: no other face needs to be told
-    /// apart from its neighbours.
+    /// Finds the nearest emitter, and then tests if anything hides it: no other face needs to be
+    /// distinguished from its neighbours.
     #[inline(always)]
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let mut hit = self.nearest_emitter(cx, ray, wanted);

@@ -1,10 +1,10 @@
-//! Light sampling: at a vertex the path index also names a point on a lamp.
+//! Light sampling: at a vertex the path index also selects a point on a lamp.
 //!
 //! Let `x` be the vertex, `y` the point, `d = y - x`, `r = |d|`, `n` the surface's normal on the
 //! viewer's side, `m` the lamp's, `q = max(0, n.d) max(0, -m.d)`, and `1 / A` the density of points
-//! per area, with the probability of the lamp in it. A ray of the surface's own sampling has the
-//! density `p` per steradian; as one per area of the lamp that is `p (-m.d) / r^3`. So the balance
-//! heuristic, which weighs each way to find the light by its density over the sum, gives
+//! per area, including the probability of the lamp. A ray of the surface's own sampling has the
+//! density `p` per steradian, which is `p (-m.d) / r^3` per area of the lamp. The balance heuristic
+//! weights each way to find the light by its density over the sum of densities. It gives
 //!
 //! ```text
 //! to the ray that meets the lamp:   F = p A c_m / (r^2 + p A c_m),    c_m = -m.d / r
@@ -34,16 +34,17 @@ use crate::valid::Surface;
 use crate::valid::lights::MOST_PAIRS;
 use std::f64::consts::FRAC_1_PI;
 
-/// Where a lamp can be nearer than this, in stage units, `r^4` has too few bits: cosines and
-/// distance are divided one after the other.
+/// The distance in stage units below which `r^4` has too few bits. If a lamp can be nearer, cosines
+/// and distance are divided one after the other.
 const NEAR: f64 = 0.3;
 
-/// The lamps of a scene and what they reach, for all depths.
+/// The lamps of a scene and the light that they send to surfaces, for all depths.
 #[derive(Clone, Debug)]
 pub(super) struct Lamps {
     shapes: Vec<Lamp>,
-    /// The face and the power of each.
+    /// By lamp: its face.
     faces: Vec<u32>,
+    /// By lamp: its power.
     powers: Vec<f64>,
     /// By surface and lamp.
     reached: Vec<Vec<Reached>>,
@@ -52,8 +53,9 @@ pub(super) struct Lamps {
 }
 
 impl Lamps {
-    /// `surface_of` tells the surface of each face, in the order of `surfaces`. None if nothing emits,
-    /// or something of a shape that is not sampled, which a scene that samples lamps does not have.
+    /// Collects the lamps. `surface_of` contains the surface of each face, in the order of `surfaces`.
+    /// None if nothing emits, or if an emitter's shape cannot be sampled; a scene that samples lamps
+    /// has no emitter of that kind.
     pub(super) fn new(
         geometry: &Geometry,
         surfaces: &[&Surface],
@@ -114,42 +116,42 @@ pub(crate) struct LightStage<const C: usize> {
     along: Sampled,
     /// By lamp: corner and edges.
     places: Vec<[f64; 9]>,
-    /// By lamp: whether it is a triangle.
+    /// By lamp: 1 if it is a triangle, else 0.
     triangles: Vec<u32>,
-    /// By lamp: its normal, and how far its plane is from the origin along it.
+    /// By lamp: its normal, and the distance of its plane from the origin along the normal.
     normals: Vec<[f64; 4]>,
     /// By lamp: area over probability and pi.
     areas: Vec<[f64; 1]>,
-    /// By lamp: what its front emits.
+    /// By lamp: the radiance of its front.
     radiance: Vec<[f64; C]>,
     /// By lamp: its surface, and its face.
     surfaces: Vec<u32>,
     faces: Vec<u32>,
-    /// By face: `areas` of the lamp that it is, 0 for others.
+    /// By face: the entry of `areas` if the face is a lamp, else 0.
     area_of_face: Vec<[f64; 1]>,
     receivers: Receivers,
     /// By place and lamp: a bound of the factor `F` or `G`.
     factors: Vec<Vec<f64>>,
-    /// The greatest of these where rays of its own do not count.
+    /// The greatest of these for surfaces whose own rays do not count.
     most: f64,
-    /// Whether a lamp may be [`NEAR`].
+    /// True if a lamp may be nearer than [`NEAR`].
     near: bool,
 }
 
-/// How surfaces receive the light of lamps, by surface.
+/// The reception of lamps' light, by surface.
 #[derive(Clone, Debug)]
 struct Receivers {
-    /// Whether the surface samples lamps.
+    /// 1 if the surface samples lamps, else 0.
     samples: Vec<u32>,
-    /// Whether its own rays count that meet one, weighed.
+    /// 1 if the surface's own rays that meet a lamp count, weighted; else 0.
     weighs: Vec<u32>,
-    /// Whether all that scatter sample lamps.
+    /// True if all surfaces that scatter sample lamps.
     all_sample: bool,
-    /// Whether those weigh that sample lamps: all, none, or some.
+    /// The surfaces that weight their own rays, of those that sample lamps: all, none, or some.
     weighing: Weighing,
 }
 
-/// Whether the own rays of surfaces that sample lamps count where they meet one.
+/// The surfaces whose own rays count when they meet a lamp, of those that sample lamps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Weighing {
     All,
@@ -158,7 +160,8 @@ enum Weighing {
 }
 
 impl Receivers {
-    /// By surface: whether it samples lamps, whether it then weighs, and whether it scatters.
+    /// Arguments are by surface: true if it samples lamps, if it then weights its own rays, and if it
+    /// scatters.
     fn new(samples: &[bool], weighs: &[bool], scatters: &[bool]) -> Self {
         let pairs = || samples.iter().zip(weighs).filter(|(samples, _)| **samples);
         let weighing = if pairs().all(|(_, weighs)| *weighs) {
@@ -172,7 +175,7 @@ impl Receivers {
             .iter()
             .zip(scatters)
             .all(|(s, scatters)| *s || !scatters);
-        // What is never asked is told as the others are: a table of one entry costs nothing.
+        // Entries that are never read equal the others: a table with one value costs nothing.
         Self {
             samples: samples
                 .iter()
@@ -190,7 +193,7 @@ impl Receivers {
 }
 
 impl<const C: usize> LightStage<C> {
-    /// None where no surface samples a lamp, or there is none.
+    /// Prepares the sampling; none if no surface samples a lamp, or if there is no lamp.
     pub(super) fn new(
         (lamps, places): (&Lamps, &Places),
         surfaces: &[&Surface],
@@ -211,10 +214,10 @@ impl<const C: usize> LightStage<C> {
         let areas: Vec<f64> = lit
             .map(|(lamp, &columns)| lamp.area * all / f64::from(columns) * FRAC_1_PI)
             .collect();
-        // The factor of next-event estimation, which that of `mis` is never above.
+        // The factor of next-event estimation. That of `mis` never exceeds it.
         let next_event = |surface: usize| -> Vec<f64> {
             let pairs = lamps.reached[surface].iter().zip(&areas);
-            // Nothing reached, at infinite strength, is nothing.
+            // A surface that the lamp does not reach has the form 0, and so the factor 0.
             pairs.map(|(reached, area)| reached.form * area).collect()
         };
         let (mut weighs, mut near) = (vec![], false);
@@ -303,13 +306,13 @@ impl<const C: usize> LightStage<C> {
         })
     }
 
-    /// Counts radiance in these units.
+    /// Converts radiance to `units`.
     pub(super) fn in_units(&mut self, units: [f64; C]) {
         super::bsdf::in_units(&mut self.radiance, units);
     }
 
-    /// An upper bound of the factor by which a ray of this depth that leaves one place, of a surface
-    /// that samples lamps or does not, counts the emission of another.
+    /// An upper bound of the factor for the emission of `other` on a ray of this depth from `place`.
+    /// `samples` is true if the surface of `place` samples lamps.
     pub(super) fn emission_bound(
         &self,
         places: &Places,
@@ -328,7 +331,7 @@ impl<const C: usize> LightStage<C> {
         mine.map(|(_, &factor)| factor).fold(0.0, f64::max)
     }
 
-    /// An upper bound of what a lamp adds at a place, over its weight there.
+    /// An upper bound of the light that a lamp adds at a place, without the weight there.
     pub(super) fn light_bound(&self, place: usize, samples: bool) -> [f64; C] {
         let mut bound = [0.0; C];
         if samples {
@@ -342,12 +345,12 @@ impl<const C: usize> LightStage<C> {
         bound
     }
 
-    /// Whether what rays of this depth meet counts anywhere.
+    /// True if the emission that rays of this depth meet counts anywhere.
     pub(super) fn rays_count(&self) -> bool {
         !(self.receivers.all_sample && self.receivers.weighing == Weighing::None)
     }
 
-    /// Whether it is asked how densely such a ray was sampled.
+    /// True if the density with which a ray of this depth was sampled is needed.
     pub(super) fn asks_for_densities(&self) -> bool {
         self.receivers.weighing != Weighing::None
     }
@@ -379,7 +382,7 @@ impl<const C: usize> LightStage<C> {
         }
     }
 
-    /// `F`, or `G` where rays of their own do not count, of a Lambertian under the cosine map.
+    /// `F` of a Lambertian under the cosine map, or `G` if its own rays do not count.
     #[inline(always)]
     pub(super) fn projected<A: Arith>(
         &self,
@@ -409,9 +412,9 @@ impl<const C: usize> LightStage<C> {
         }
     }
 
-    /// `F` of a direction that the surface's own sampling has with `density`, in units of `1 / pi`
-    /// per steradian, of a point of a lamp at `square` the distance's square under the cosine
-    /// `cos`, with `area`.
+    /// `F` of a direction to a point of a lamp. `density` is that of the surface's own sampling in
+    /// this direction, in units of `1 / pi` per steradian. `area` is as in [`Towards`], `cos` is the
+    /// cosine at the lamp, and `square` is the square of the distance.
     #[inline(always)]
     pub(super) fn balance<A: Arith>(
         cx: &mut A,
@@ -422,7 +425,7 @@ impl<const C: usize> LightStage<C> {
         math!(cx, div(share, square + share, 1.0))
     }
 
-    /// Where a path was that goes on to its next vertex.
+    /// The departure of a path from a vertex on `surface` to its next vertex.
     #[inline(always)]
     pub(super) fn departed<A: Arith>(
         &self,
@@ -439,7 +442,7 @@ impl<const C: usize> LightStage<C> {
         }
     }
 
-    /// By how much the emission counts of what a ray meets: 1 where no lamp was sampled.
+    /// The factor by which the emission that a ray meets counts: 1 if no lamp was sampled.
     #[inline(always)]
     pub(super) fn emission<A: Arith>(
         &self,
@@ -453,7 +456,7 @@ impl<const C: usize> LightStage<C> {
         Self::emission_of(cx, departure, area, distance, cos_theta)
     }
 
-    /// The same, of a lamp with this area over probability and pi.
+    /// The same factor, for a lamp with this `area` over probability and pi.
     #[inline(always)]
     pub(super) fn emission_of<A: Arith>(
         cx: &mut A,
@@ -484,7 +487,7 @@ pub(super) struct Lighting<'a, A: Arith, N, const C: usize> {
     pub(super) nearest: &'a N,
     pub(super) at: &'a Vertex<A>,
     pub(super) leaves: &'a Leaves<A>,
-    /// What the paths carry, before the vertex.
+    /// The throughput of the paths before the vertex.
     pub(super) throughput: Option<[A::Real; C]>,
 }
 
@@ -511,7 +514,7 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
         let lit = cx.entry(&lights.receivers.samples, at.surface);
         let lit = cx.is(lit, 1);
         let both = math!(cx, rise * fall);
-        // Where that is 0, so may be all that is divided by; coarse numbers are soon 0.
+        // If `both` is 0, the divisors may be 0 too: coarse numbers soon are.
         let wanted = math!(cx, at.alive && lit && 0.0 < both);
         if !cx.any(wanted) {
             cx.leave();
@@ -556,7 +559,7 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
     }
 }
 
-/// From where the rays go on that leave a vertex: a point, and the plane that it is on.
+/// The start of the rays that leave a vertex: a point, and the plane that it is on.
 pub(super) struct Leaves<A: Arith> {
     pub(super) origin: Vector<A>,
     pub(super) from: A::Index,
@@ -584,7 +587,7 @@ pub(crate) struct Towards<A: Arith> {
     pub(super) area: A::Real,
 }
 
-/// Where a path's ray started, for whoever weighs what it meets.
+/// The departure of a path's ray from a vertex, to weight the emission that the ray meets.
 pub(super) struct Departure<A: Arith> {
     samples: A::Bool,
     weighs: A::Bool,
@@ -599,7 +602,7 @@ fn place_row(lamp: &Lamp) -> [f64; 9] {
 }
 
 fn normal_row(lamp: &Lamp) -> [f64; 4] {
-    // What rounding leaves of an axis-aligned normal is no component.
+    // A component of an axis-aligned normal that is only a rounding error becomes 0.
     let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
     let n = lamp.normal.to_array().map(clean);
     [n[0], n[1], n[2], lamp.normal.dot(lamp.corner)]

@@ -1,8 +1,8 @@
-//! Equations that look like equations.
+//! Macros that write arithmetic as formulas.
 //!
-//! [`Arith`](super::Arith) is a list of calls; `math!` and `vector!` write them as formulas, and
-//! expand to nothing but these calls: operands from left to right, an operation after its operands.
-//! So the order of a formula's operands is the order in which a circuit computes them.
+//! [`Arith`](super::Arith) is a list of methods. `math!` and `vector!` write formulas, and expand
+//! to calls of these methods alone: operands from left to right, an operation after its operands. A
+//! circuit therefore computes the operands in the order of the formula.
 //!
 //! ```text
 //! math!(cx, (eta * cos_o - cos_t) / (eta * cos_o + cos_t))     a number or a truth value
@@ -17,14 +17,14 @@
 //!   `scale(a, factor)` and `known(a, low, high)` are plain `f64`s.
 //! - `a / b` is a division whose quotient has no known bound; `div` states one.
 //! - `dot(v, w)` is a number; in `vector!`, `mirror(v, w)` and `constant(c)` are vectors, and so is
-//!   `v * s`, of which the right-hand factor is a number.
+//!   `v * s`, whose right-hand factor is a number.
 //! - Anything else is Rust: a variable, a field, an element, an array of components.
 
 /// A number or a truth value, by a formula; see [the module](self).
 macro_rules! math {
-    // One token after the other: what waits for its right-hand operand, the operand so far, and the
-    // rest. The first is what the formula is, its arithmetic, and a list for each rank, which is
-    // empty or holds a formula and an operation.
+    // Reads one token after the other. The arguments are the pending operations, the operand so
+    // far, and the rest. The pending operations are the kind of the formula, its arithmetic, and a
+    // list for each rank, which is empty or holds a formula and an operation.
     (@next $w:tt () - $($rest:tt)+) => { math!(@next $w (-) $($rest)+) };
     (@next $w:tt (-) - $($rest:tt)+) => { math!(@next $w (- -) $($rest)+) };
     (@next $w:tt ($($x:tt)+) * $($rest:tt)+) => { math!(@product $w ($($x)+) mul $($rest)+) };
@@ -43,7 +43,7 @@ macro_rules! math {
         math!(@join $k $cx $or math!(@join $k $cx $and math!(@join $k $cx $less
             math!(@join $k $cx $sum math!(@times $k $cx $product $x)))))
     };
-    // An operator of each rank takes what waits at tighter ones.
+    // An operator of each rank completes the pending operations of tighter ranks.
     (@product {$k:ident $cx:ident $or:tt $and:tt $less:tt $sum:tt $product:tt}
         $x:tt $operation:ident $($rest:tt)+) => {
         math!(@next {$k $cx $or $and $less $sum
@@ -68,7 +68,7 @@ macro_rules! math {
             () () () ()} () $($rest)+)
     };
 
-    // What waits, and its right-hand operand. A `match` binds both before the call.
+    // A pending operation and its right-hand operand. A `match` binds both before the call.
     (@join $k:ident $cx:ident () $x:expr) => { $x };
     (@join vector $cx:ident ($left:tt $operation:ident) $x:expr) => {
         match ($left, $x) { (a, b) => $crate::tracer::vector::$operation($cx, &a, &b) }

@@ -1,11 +1,11 @@
 //! The paper's Path Tracing frame, stated once.
 //!
-//! [`trace`] is the whole of it: *Generate Ray*, then per depth *Find Intersection*, emission and
-//! scattering. It is written over the trait [`Arith`], so that one text has several readings:
-//! over lanes of `f64` it renders pictures, over a circuit builder it records a reversible
-//! program. The readings cannot drift apart, because there is nothing to drift.
+//! [`trace`] is the complete frame: *Generate Ray*, then per depth *Find Intersection*, emission
+//! and scattering. It is generic over the trait [`Arith`], so that one source has several uses:
+//! over lanes of `f64` it renders pictures, over a circuit builder it records a reversible program.
+//! Both run the same code, so they cannot diverge.
 //!
-//! A [`Stage`] is the scene made ready for it: planes with the polygons that lie on them,
+//! A [`Stage`] is the scene prepared for it: planes with the polygons that lie on them,
 //! shading frames, tables over sample indices, and the bound on a path's colour.
 //!
 //! The colour of a path (the paper's `color_id`) is

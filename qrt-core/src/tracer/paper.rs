@@ -5,8 +5,8 @@ use super::geometry::NO_FACE;
 use super::ray::{Hit, Nearest, Ray, point_at};
 use super::{Arith, Part, Stage};
 
-/// Records of every primitive, beside the geometry that otherwise answers [`Nearest`]. For
-/// comparison: the hits are the same.
+/// Finds hits with records of every primitive, in place of the geometry. For comparison: the hits
+/// are the same.
 pub struct Records<'a, const C: usize>(pub &'a Stage<C>);
 
 /// Distance, point, normal, surface.

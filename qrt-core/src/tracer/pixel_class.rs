@@ -1,25 +1,26 @@
-//! Which pixels may see a lamp at once, and which provably do not.
+//! Classes of pixels: those that may see a lamp directly, and those that provably do not.
 //!
-//! A lamp's radiance is many times what it lights. Where no ray of a pixel meets one before it meets
-//! anything else, the colour scale need not hold it.
+//! A lamp's radiance is many times that of the surfaces that it lights. If no primary ray of a pixel
+//! meets a lamp first, the colour scale need not include the lamp's radiance.
 
 use super::camera;
 use crate::valid::ValidScene;
 use glam::DVec2;
 
-/// How far outside its square a pixel's rays are taken to go, in pixels: far above rounding.
+/// The margin outside a pixel's square that its rays are assumed to reach, in pixels: far above
+/// rounding.
 const MARGIN: f64 = 1e-6;
 
 /// The most outlines that are compared with parts of the film, in search of a pixel that meets none.
 const MOST_COMPARED: usize = 1 << 20;
 
-/// What primary rays of a pixel may meet.
+/// The class of a pixel, by the lamps that its primary rays may meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelClass {
     /// A camera ray of the pixel may meet a lamp, or nothing is proven.
     #[default]
     MayMeetLamp,
-    /// No lamp, or its back.
+    /// A camera ray of the pixel meets no lamp, or a lamp's back.
     MeetsNoLamp,
 }
 
@@ -31,17 +32,16 @@ impl PixelClass {
 /// The class of each pixel of a scene's film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelClasses {
-    /// The outlines of those lamps that some pixel may see, in pixels; none where all pixels may see
-    /// one.
+    /// The outlines of those lamps that some pixel may see, in pixels; none if all pixels may see one.
     outlines: Option<Vec<Vec<DVec2>>>,
 }
 
 impl PixelClasses {
-    /// The classes of `scene`'s pixels. Where no lamp is sampled, all may meet one: the scale is
-    /// then that of what their paths meet by chance.
+    /// The classes of `scene`'s pixels. If no lamp is sampled, all pixels are of the class that may
+    /// meet one: the scale is then that of the light that their paths meet by chance.
     ///
-    /// Lamps that cover the film together are told from others that leave a pixel free by a search of
-    /// bounded effort. Where it ends without an answer, a pixel is taken to be free.
+    /// A search of bounded effort determines if the lamps together cover the film, or leave a pixel
+    /// free. If the search ends without an answer, a pixel is assumed to be free.
     pub fn new(scene: &ValidScene) -> Self {
         let written = scene.scene();
         let sampling = &written.sampling;
@@ -58,7 +58,7 @@ impl PixelClasses {
             match view.outline(lamp.outline()) {
                 camera::Seen::Not => {}
                 camera::Seen::Within(outline) => {
-                    // A lamp beside the film makes no class that a pixel could have.
+                    // A lamp beside the film makes no difference to a pixel's class.
                     if meets_pixels(&outline, [0, 0], film) {
                         outlines.push(outline);
                     }
@@ -76,12 +76,12 @@ impl PixelClasses {
         }
     }
 
-    /// All pixels may meet a lamp.
+    /// The classes if all pixels may meet a lamp.
     pub fn one() -> Self {
         Self { outlines: None }
     }
 
-    /// The lamps' outlines on the film, as points (x, y) in pixels from its top left corner; none where
+    /// The lamps' outlines on the film, as points (x, y) in pixels from its top left corner; none if
     /// every pixel may meet one.
     pub fn outlines(&self) -> Option<Vec<Vec<[f64; 2]>>> {
         let points = |outline: &Vec<DVec2>| outline.iter().map(DVec2::to_array).collect();
@@ -89,7 +89,7 @@ impl PixelClasses {
         Some(outlines.iter().map(points).collect())
     }
 
-    /// The classes that such outlines make.
+    /// The classes with these `outlines`, as [`PixelClasses::outlines`] returns them.
     pub fn of_outlines(outlines: Option<Vec<Vec<[f64; 2]>>>) -> Self {
         let points = |outline: Vec<[f64; 2]>| outline.into_iter().map(DVec2::from).collect();
         Self {
@@ -110,10 +110,10 @@ impl PixelClasses {
         }
     }
 
-    /// What `run` gives for the pixels of each class, in the order of `pixels`.
+    /// Calls `run` for the pixels of each class, and returns the results in the order of `pixels`.
     ///
     /// # Errors
-    /// The first of `run`.
+    /// The first error of `run`.
     pub fn apart<T, E>(
         &self,
         pixels: &[[u32; 2]],
@@ -135,8 +135,7 @@ impl PixelClasses {
         Ok(all.into_iter().flatten().collect())
     }
 
-    /// The classes that pixels of the film have; both where that is not known: see
-    /// [`PixelClasses::new`].
+    /// The classes that pixels of the film have; both if that is not known: see [`PixelClasses::new`].
     pub fn present(&self) -> &'static [PixelClass] {
         match &self.outlines {
             None => &PixelClass::ALL[..1],
@@ -169,7 +168,7 @@ fn may_be_free(outlines: &[&[DVec2]], first: [u32; 2], end: [u32; 2], effort: &m
     if near.is_empty() {
         return true;
     }
-    // A single pixel is covered by what it meets.
+    // A single pixel is covered by any outline that it meets.
     if near.iter().any(|outline| covers(outline, first, end)) {
         return false;
     }
@@ -177,7 +176,7 @@ fn may_be_free(outlines: &[&[DVec2]], first: [u32; 2], end: [u32; 2], effort: &m
     *effort == 0 || quarters(first, end).any(|[first, end]| may_be_free(&near, first, end, effort))
 }
 
-/// The parts, each with its first pixel and its end, into which a box of several pixels falls.
+/// Divides a box of several pixels into parts, each with its first pixel and its end.
 fn quarters(first: [u32; 2], end: [u32; 2]) -> impl Iterator<Item = [[u32; 2]; 2]> {
     let halves = [0, 1].map(|axis| {
         let middle = first[axis].midpoint(end[axis]);
@@ -189,7 +188,7 @@ fn quarters(first: [u32; 2], end: [u32; 2]) -> impl Iterator<Item = [[u32; 2]; 2
     parts.filter(|[first, end]| first[0] < end[0] && first[1] < end[1])
 }
 
-/// Whether a convex outline and a box of the film have a point in common.
+/// True if a convex outline and a box of the film have a point in common.
 fn meets(outline: &[DVec2], low: DVec2, high: DVec2) -> bool {
     let least = outline.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
     let most = outline
@@ -205,7 +204,7 @@ fn meets(outline: &[DVec2], low: DVec2, high: DVec2) -> bool {
         DVec2::new(low.x, high.y),
     ];
     let centre = outline.iter().sum::<DVec2>() / outline.len() as f64;
-    // A line along an edge with the outline on one side and the box on the other.
+    // They have none if a line along an edge has the outline on one side and the box on the other.
     !(0..outline.len()).any(|k| {
         let (start, end) = (outline[k], outline[(k + 1) % outline.len()]);
         let across = (end - start).perp();

@@ -1,27 +1,29 @@
-//! Where a path's vertices may lie, and which of these places a ray may go to from which: what the
-//! bound on a path's colour knows of the geometry.
+//! The places where a path's vertices may lie, and for each the places that a ray from it may reach:
+//! the geometry that the bound on a path's colour uses.
 //!
-//! A place is a side of a face. A ray that leaves it stays on that side of the face's plane, so it
-//! meets no face that lies in or behind this plane, nor a side of a face that looks away from the
-//! place it left: the top of a box is not met from the floor. Where there are many faces, or where
-//! no lamp is sampled, a place is all that is of one surface, and each may be met from each.
+//! A place is a side of a face. A ray that leaves it stays on that side of the face's plane. It
+//! meets no face that lies in or behind this plane, and no side of a face that looks away from the
+//! place it left: the top of a box is not met from the floor. If there are many faces, or if no lamp
+//! is sampled, a place is a whole surface, and each place may be reached from each.
 //!
-//! This is so of the faces as they are written. A ray that slips through between two faces, within
-//! the tolerance of their edges, may carry more than the bound: machines end with an error then.
+//! This is true of the faces as they are written. A ray that slips through between two faces, within
+//! the tolerance of their edges, may carry more than the bound: machines then end with an error.
 
 use super::geometry::Geometry;
 use crate::lights::strongest_form;
 use glam::DVec3;
 
-/// The most faces whose sides are told apart, and the most pairs of a face and a lamp.
+/// Most faces whose sides are distinguished.
 const MOST_FACES: usize = 512;
+/// Most pairs of a face and a lamp.
 const MOST_LIT: usize = 4096;
 
-/// Pairs of parts that are looked at for all sides of faces and lamps, and for each at least.
+/// Number of pairs of parts that are compared for all sides of faces and lamps.
 const MOST_PARTS: usize = 32_000;
+/// Least number of pairs of parts that are compared for one side of a face and one lamp.
 const FEWEST_PARTS: usize = 32;
 
-/// How far a corner must be from a plane to be on a side of it, in stage units: above rounding.
+/// The least distance of a corner that is on a side of a plane, in stage units: above rounding.
 const SLACK: f64 = 1e-9;
 
 /// The places of a scene.
@@ -29,13 +31,13 @@ const SLACK: f64 = 1e-9;
 pub(crate) struct Places {
     /// By place: its surface.
     surfaces: Vec<u32>,
-    /// Where places are sides of faces: by place, whether primary rays may meet it, and the places
-    /// that rays may meet which leave it.
+    /// If places are sides of faces: by place, true if primary rays may meet it, and the places that
+    /// rays from it may meet.
     seen: Option<(Vec<bool>, Vec<Vec<u32>>)>,
 }
 
 impl Places {
-    /// All that is of one surface is one place.
+    /// Places that are whole surfaces, `number` of them.
     pub(crate) fn surfaces(number: usize) -> Self {
         Self {
             surfaces: (0..number as u32).collect(),
@@ -43,9 +45,10 @@ impl Places {
         }
     }
 
-    /// Sides of faces: place `2 label` is the front of a face, the next its back; `transmits` tells
-    /// of each face whether rays leave it on both sides. Primary rays leave `starts`. All that is of
-    /// one surface, of so many, where there are too many faces, or too many for `lamps` lamps.
+    /// Places that are sides of faces. Place `2 label` is the front of a face, the next place its
+    /// back. `transmits` is true for faces that rays leave on both sides. Primary rays leave
+    /// `starts`. If there are too many faces, or too many for `lamps` lamps, the places are whole
+    /// surfaces.
     pub(crate) fn sides(
         geometry: &Geometry,
         (surface_of, surfaces): (&[u32], usize),
@@ -81,7 +84,7 @@ impl Places {
         }
     }
 
-    /// How many there are.
+    /// Number of places.
     pub(crate) fn len(&self) -> usize {
         self.surfaces.len()
     }
@@ -91,12 +94,12 @@ impl Places {
         self.surfaces[place]
     }
 
-    /// Those that primary rays meet.
+    /// The places that primary rays may meet.
     pub(crate) fn first(&self) -> impl Iterator<Item = usize> {
         (0..self.len()).filter(|&place| self.seen.as_ref().is_none_or(|(first, _)| first[place]))
     }
 
-    /// Those that rays meet which leave `place`.
+    /// The places that rays from `place` may meet.
     pub(crate) fn next(&self, place: usize) -> impl Iterator<Item = usize> {
         let listed = self.seen.as_ref().map(|(_, next)| &next[place]);
         let all = if listed.is_some() { 0 } else { self.len() };
@@ -104,7 +107,7 @@ impl Places {
         listed.chain(0..all)
     }
 
-    /// Whether a face of this surface is in the place, on one side or on both.
+    /// True if a face of this surface is in the place, on one side or on both.
     pub(crate) fn holds(&self, place: usize, (face, surface): (u32, u32)) -> bool {
         match self.seen {
             Some(_) => place / 2 == face as usize,
@@ -112,8 +115,8 @@ impl Places {
         }
     }
 
-    /// An upper bound of `q / r^4` for what one of so many lamps lights of each place, where it is
-    /// known by surface.
+    /// An upper bound of `q / r^4` by place, for the light of face `lamp`, one of `lamps` lamps.
+    /// `by_surface` gives the bound of a surface.
     pub(crate) fn lit_by(
         &self,
         geometry: &Geometry,
@@ -136,12 +139,12 @@ impl Places {
     }
 }
 
-/// Whether one of the points is before this side of a face.
+/// True if one of the points is in front of this side of a face.
 fn before(geometry: &Geometry, place: usize, points: &[DVec3]) -> bool {
     beyond(geometry, place, points, SLACK)
 }
 
-/// Whether one of the points is further than `least` from the plane, towards this side of the face.
+/// True if one of the points is farther than `least` from the plane, towards this side of the face.
 fn beyond(geometry: &Geometry, place: usize, points: &[DVec3], least: f64) -> bool {
     let frame = &geometry.frames[place / 2];
     let side = if place.is_multiple_of(2) { 1.0 } else { -1.0 };

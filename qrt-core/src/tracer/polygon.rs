@@ -1,4 +1,4 @@
-//! One polygon made ready: its plane, its shading frame and its edges as half-plane tests.
+//! One polygon prepared for intersection: its plane, its shading frame and its edges as half-plane tests.
 
 use super::geometry::{EdgeTest, Frame, Plane};
 use crate::polygons::main_axis;
@@ -8,8 +8,8 @@ pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
     let axis = main_axis(frame.normal);
     let scaled = frame.normal / frame.normal[axis];
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    // What rounding leaves of a rotation by a multiple of 90 degrees is no coefficient, and what it adds to
-    // 1 where two components are equal is none either.
+    // Remove rounding errors: coefficients that should be 0 after a rotation by a multiple of 90 degrees,
+    // and coefficients above 1 where two components are equal.
     let form = [scaled[next], scaled[last]];
     let form = form.map(|c| {
         if c.abs() < f64::EPSILON {
@@ -59,8 +59,8 @@ pub(super) fn frame(corners: &[DVec3]) -> Frame {
     }
 }
 
-/// The test of one edge, given by its ends: on which side of it, in the plane's projection along its
-/// main axis, the `centre` is.
+/// The test of the edge with these `ends`: a point passes if it is on the side of the `centre`, in the
+/// plane's projection along its main axis.
 pub(super) fn edge_test(ends: [DVec3; 2], axis: usize, centre: DVec3, tolerance: f64) -> EdgeTest {
     let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let [start, end] = ends.map(flat);
@@ -86,7 +86,7 @@ pub(super) fn edge_test(ends: [DVec3; 2], axis: usize, centre: DVec3, tolerance:
     }
 }
 
-/// The half-plane tests of the edges; of parallel ones as one.
+/// The half-plane tests of the edges. Parallel edges share one.
 pub(super) fn edge_tests(
     corners: &[DVec3],
     axis: usize,

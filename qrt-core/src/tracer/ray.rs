@@ -1,4 +1,4 @@
-//! Rays, and what is asked of them: the nearest intersection.
+//! Rays and their nearest intersections.
 
 use super::Arith;
 use super::geometry::NO_FACE;
@@ -10,16 +10,16 @@ pub struct Ray<A: Arith> {
     pub origin: Vector<A>,
     /// The direction of the ray; of unit length wherever a material reads angles.
     pub direction: Vector<A>,
-    /// The number of the plane that the ray leaves, which it does not meet, or [`super::NO_PLANE`]: an eye
-    /// leaves none, and a film only one that it lies on.
+    /// The number of the plane that the ray leaves and does not meet, or [`super::NO_PLANE`]. A ray from
+    /// an eye leaves none; a ray from a film leaves only a plane that the film lies on.
     pub from: A::Index,
-    /// A bound on the distance of whatever the ray meets, in lengths of its direction.
+    /// A bound on the distance of every hit of the ray, in lengths of its direction.
     pub t_max: f64,
-    /// Where it starts, on all paths.
+    /// The kind of its start, the same on all paths.
     pub start: Start,
 }
 
-/// Where rays start.
+/// The kind of a ray's start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// At the camera.
@@ -37,18 +37,18 @@ impl<A: Arith> Copy for Ray<A> {}
 
 /// The nearest intersection.
 pub struct Hit<A: Arith> {
-    /// Whether the ray meets any face.
+    /// True if the ray meets any face.
     pub found: A::Bool,
     /// The distance of the hit, in lengths of the ray's direction.
     pub distance: A::Real,
-    /// The number of the face that is hit; the first face where none is.
+    /// The number of the face that is hit; the first face if none is hit.
     pub face: A::Index,
-    /// Whether the face's front is hit, if the search knows.
+    /// True if the face's front is hit; none if the search does not determine this.
     pub front: Option<A::Bool>,
 }
 
 impl<A: Arith> Hit<A> {
-    /// The hit on `face`, or none where that is [`NO_FACE`] or the path is not `wanted`.
+    /// The hit on `face`; no hit if `face` is [`NO_FACE`] or the path is not `wanted`.
     #[inline(always)]
     pub fn new(cx: &mut A, distance: A::Real, face: A::Index, wanted: A::Bool) -> Self {
         let none = cx.is(face, NO_FACE);
@@ -62,15 +62,15 @@ impl<A: Arith> Hit<A> {
     }
 }
 
-/// A ray of a path and what it meets: see [`Arith::traced`].
+/// A ray of a path and its hit: see [`Arith::traced`].
 pub struct Segment<A: Arith> {
-    /// Where the ray starts, in stage units.
+    /// The point where the ray starts, in stage units.
     pub origin: Vector<A>,
-    /// Where the ray goes.
+    /// The direction of the ray.
     pub direction: Vector<A>,
-    /// Whether the path has not ended before the ray.
+    /// True if the path has not ended before the ray.
     pub goes: A::Bool,
-    /// Whether it goes on and the ray meets a face.
+    /// True if the path has not ended before the ray, and the ray meets a face.
     pub found: A::Bool,
     /// As [`Hit::distance`].
     pub distance: A::Real,
@@ -87,17 +87,17 @@ impl<A: Arith> Clone for Segment<A> {
 }
 impl<A: Arith> Copy for Segment<A> {}
 
-/// What finds the nearest intersection.
+/// A search for the nearest intersection.
 pub trait Nearest<A: Arith> {
-    /// The nearest intersection of `ray`, wanted only where `wanted`.
+    /// The nearest intersection of `ray`, needed only where `wanted` holds.
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 
-    /// The nearest intersection of `ray` where that is on an emitter: all that matters of a
-    /// path's last ray.
+    /// The nearest intersection of `ray` if it is on an emitter. Only that matters for a path's last ray.
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 
-    /// Whether anything stands between the start of `ray` and its end, one length of its direction
-    /// away on emitting face number `lamp` ([`super::Plane::emitters`]); asked only where `wanted`.
+    /// True if anything stands between the start of `ray` and its end. The end is one length of its
+    /// direction away, on emitting face number `lamp` ([`super::Plane::emitters`]). Needed only where
+    /// `wanted` holds.
     fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool;
 }
 

@@ -1,15 +1,15 @@
 //! The factor by which refractions through the glass of a scene make radiance denser.
 //!
-//! A refraction scales radiance by the squared ratio of the indices: by `1 / ior^2` against the normal of
-//! a face, by `ior^2` along it. Around a closed surface these are the steps of its winding number
+//! A refraction scales radiance by the squared ratio of the indices: by `1 / ior^2` against the normal of a
+//! face, by `ior^2` along it. Around a closed surface these are the steps of its winding number
 //! ([`crate::polygons::Solid`]), so the product of all of a path's refractions there depends on the path's
-//! ends alone: with `w` the number at its last vertex and `v` at the camera, it is `ior^(2 (v - w))`. A
-//! bound follows for each solid from where the camera and the last vertex may be.
+//! ends alone. With `w` the number at its last vertex and `v` at the camera, it is `ior^(2 (v - w))`. The
+//! possible positions of the camera and of the last vertex therefore give a bound for each solid.
 //!
-//! That takes each crossing to be traced. Faces that overlap on one plane are crossed as one, and the first
-//! of the list decides how. Where glass overlaps glass, but for slivers, scenes are refused
-//! ([`crate::valid`]). Beside slivers, and where another material that transmits lies on glass, nothing is
-//! known of any refraction.
+//! This requires that each crossing is traced. Faces that overlap on one plane are crossed as one, and the
+//! first of the list decides how. Scenes in which glass overlaps glass, except in slivers, are rejected
+//! ([`crate::valid`]). If there are slivers, or if another material that transmits lies on glass, no
+//! refraction has a known bound.
 
 use super::geometry::Geometry;
 use crate::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
@@ -19,7 +19,7 @@ use glam::DVec3;
 /// Boxes nearer than this, in stage units, may have points in common.
 const MARGIN: f64 = 1e-9;
 
-/// More solids than this are taken to have points in common.
+/// Most solids whose boxes are compared; more are assumed to have points in common.
 const MOST_SOLIDS: usize = 4096;
 
 /// Bounds on the refractions of all paths.
@@ -30,7 +30,7 @@ pub(super) struct Refraction {
     most: f64,
 }
 
-/// A solid of glass, by what a path's colour gains at most.
+/// A solid of glass, with the greatest factors that a path's colour gains from it.
 struct Piece {
     solid: Solid,
     /// Factor of a path that starts outside and ends within.
@@ -40,8 +40,8 @@ struct Piece {
 }
 
 impl Refraction {
-    /// Of the faces of `geometry`, whose surfaces `surface_of` numbers by label; rays of the camera leave
-    /// `starts`, or the area between them.
+    /// Bounds for the faces of `geometry`. `surface_of` contains their surfaces, by label. Rays of the
+    /// camera leave `starts`, or the area between them.
     pub(super) fn new(
         geometry: &Geometry,
         surfaces: &[&Surface],
@@ -91,13 +91,13 @@ impl Refraction {
         self.known[surface as usize]
     }
 
-    /// The greatest product of the weights of all refractions of a path, at surfaces of which it is known.
+    /// The greatest product of the weights of all refractions of a path, at surfaces with a known bound.
     pub(super) fn most(&self) -> f64 {
         self.most
     }
 }
 
-/// The greatest product of what paths gain that start within solids.
+/// The greatest product of the gains of paths that start within solids.
 fn most_left(pieces: &[Piece], starts: &[DVec3]) -> f64 {
     let low = starts.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = starts.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -107,8 +107,8 @@ fn most_left(pieces: &[Piece], starts: &[DVec3]) -> f64 {
     around.map(|piece| piece.left).product()
 }
 
-/// The greatest product of what paths gain that end within solids: of those whose boxes are connected,
-/// since no point is within others.
+/// The greatest product of the gains of paths that end within solids. It is over solids whose boxes are
+/// connected, since no point is within others as well.
 fn most_entered(pieces: &[Piece]) -> f64 {
     let gaining: Vec<&Piece> = pieces.iter().filter(|piece| piece.entered > 1.0).collect();
     if gaining.len() > MOST_SOLIDS {

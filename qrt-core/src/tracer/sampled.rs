@@ -41,12 +41,12 @@ impl Sampled {
         Self::of_index(bits, move |index| function(cell_centre(index, bits)))
     }
 
-    /// How many bits the index has.
+    /// Number of bits of the index.
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// All values by index, where they are stored.
+    /// All values by index, if they are stored.
     #[inline(always)]
     pub fn table(&self) -> Option<&[f64]> {
         (!self.table.is_empty()).then_some(&*self.table)
@@ -60,7 +60,7 @@ impl Sampled {
         }
     }
 
-    /// Whether both are stored, and equal.
+    /// True if both are stored, and equal.
     pub(super) fn same(&self, other: &Self) -> bool {
         self.bits == other.bits && !self.table.is_empty() && self.table == other.table
     }

@@ -3,7 +3,7 @@
 use super::{Arith, Axis, Coordinate, Sampled};
 use crate::expr::Function;
 
-/// The arithmetic of one path, and the operations that it was asked for.
+/// The arithmetic of one path, with a record of its operations.
 #[derive(Default)]
 pub(crate) struct Scalar {
     /// The sample indices of the ray after the first bounce.

@@ -1,19 +1,20 @@
-//! *Find Intersection* as circuits have it: of the scene's planes, only what a ray can meet.
+//! *Find Intersection* for circuits: of the scene's planes, it tests only those that a ray can meet.
 //!
-//! [`Geometry`] asks every plane where the ray crosses it, and every polygon on it whether the crossing
-//! is within its edges. Three observations spare most of that; the hits are the same.
+//! [`Geometry`] computes where the ray crosses every plane, and tests if the crossing is within the
+//! edges of every polygon on it. Three observations avoid most of that; the hits are the same.
 //!
 //! - **Outer planes** have the whole scene and the ray's start on one side. The ray can meet them only
 //!   where it leaves the scene, so the first of them that it crosses is the only one that it can meet.
-//!   An edge where two outer planes meet needs no test. The others are tested once, where the nearest
-//!   hit is. Nothing on an outer plane stands between two points of the scene, and a ray that leaves one
+//!   An edge where two outer planes meet needs no test. The other edges are tested once, at the nearest
+//!   hit. Nothing on an outer plane stands between two points of the scene, and a ray that leaves one
 //!   outwards meets nothing.
-//! - **Convex bodies** are met where the ray enters the last of the planes that it enters, if that is
-//!   before it leaves the first that it leaves: no points, no edges. See [`super::convex`].
-//! - **Sides**: the sign of the slope towards a plane tells on which side a ray meets it.
+//! - **Convex bodies**: a ray meets a body at the last of the planes that it enters, if it enters this
+//!   plane before it leaves the first of the planes that it leaves. This needs no points and no edges.
+//!   See [`super::convex`].
+//! - **Sides**: the sign of the slope towards a plane gives the side on which a ray meets it.
 //!
-//! Where a ray starts decides what is outer, and what it may enter: rays that leave surfaces and rays of
-//! the camera are searched for by a [`Plan`] each.
+//! The start of a ray decides which planes are outer, and which bodies it may enter. Rays that leave
+//! surfaces and rays of the camera have a [`Plan`] each.
 
 mod plan;
 
@@ -25,8 +26,8 @@ use super::ray::{Hit, Nearest, Ray, Start};
 use super::{Arith, Part, Stage};
 use plan::{Facet, Met, MetBound, Outer, Plan, Planner, Starts};
 
-/// How thick planes are at most, in stage units, where convex bodies are looked for: corners from
-/// files of single precision are that far off.
+/// The greatest thickness of planes in the search for convex bodies, in stage units. Corners from files
+/// of single precision are off by this distance.
 const THICKNESS: f64 = 1.0 / (1_u64 << 22) as f64;
 
 /// The searches of a scene's rays.
@@ -36,12 +37,12 @@ pub(crate) struct Search<'a> {
     camera: Plan,
     /// The rays that leave surfaces.
     surfaces: Plan,
-    /// By face label: whether the normal is along its plane's main axis.
+    /// By face label: true if the normal points along its plane's main axis.
     along: Vec<bool>,
 }
 
 impl<'a> Search<'a> {
-    /// The searches of a stage's rays, in numbers of this precision.
+    /// Creates the searches of a stage's rays, for numbers with this `ulp`.
     pub(crate) fn new<const C: usize>(stage: &'a Stage<C>, ulp: f64) -> Self {
         let geometry = stage.geometry();
         let edges = Edges::new(geometry);
@@ -99,14 +100,14 @@ impl<A: Arith> Running<A> {
     }
 }
 
-/// How a ray goes towards a plane.
+/// The approach of a ray to a plane.
 struct Approach<A: Arith> {
-    /// Whether the ray crosses the plane ahead of its start.
+    /// True if the ray crosses the plane ahead of its start.
     ahead: A::Bool,
     distance: A::Real,
-    /// Whether it goes against the plane's main axis, seen along the plane.
+    /// True if it goes against the plane's main axis, relative to the plane.
     falls: A::Bool,
-    /// Whether it starts above the plane.
+    /// True if it starts above the plane.
     above: A::Bool,
 }
 
@@ -127,16 +128,16 @@ impl<A: Arith> Approach<A> {
     }
 }
 
-/// How a ray goes towards a plane that bounds a body.
+/// The passage of a ray through a plane that bounds a body.
 struct Passage<A: Arith> {
-    /// Whether the ray starts on the plane.
+    /// True if the ray starts on the plane.
     starts: A::Bool,
-    /// Whether it crosses the plane ahead of its start.
+    /// True if it crosses the plane ahead of its start.
     ahead: A::Bool,
     distance: A::Real,
-    /// Whether it goes towards the side on which the body is.
+    /// True if it goes towards the side on which the body is.
     inwards: A::Bool,
-    /// Whether it starts on the other side.
+    /// True if it starts on the other side.
     outside: A::Bool,
 }
 
@@ -171,7 +172,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a ray that falls or rises towards a face's plane meets its front.
+    /// Returns whether a ray meets a face's front. If `falls`, the ray falls towards the face's plane,
+    /// otherwise it rises.
     fn front<A: Arith>(&self, cx: &mut A, label: u32, falls: A::Bool) -> A::Bool {
         if self.along[label as usize] {
             falls
@@ -180,8 +182,8 @@ impl Search<'_> {
         }
     }
 
-    /// An outer plane is met from within the scene: where the ray falls towards it, the scene is above.
-    /// Tells whether the ray leaves the plane outwards.
+    /// Updates `nearest` with an outer plane, which is met from within the scene: if the ray falls
+    /// towards it, the scene is above. Returns whether the ray leaves the plane outwards.
     fn outer<A: Arith>(
         &self,
         cx: &mut A,
@@ -228,7 +230,7 @@ impl Search<'_> {
         math!(cx, outwards && left)
     }
 
-    /// Where `ray` meets a body nearer than `limit`, and whether.
+    /// Returns whether `ray` meets a body nearer than `limit`, and the hit.
     fn body<A: Arith>(
         &self,
         cx: &mut A,
@@ -265,7 +267,7 @@ impl Search<'_> {
             }
             if bound.entered {
                 let enters = math!(cx, ahead && inwards);
-                // From outside to farther outside, or along the plane.
+                // The ray goes from outside to farther outside, or along the plane.
                 let turned_away = cx.not(inwards);
                 let outside = cx.select_truth(starts, turned_away, outside);
                 missed = math!(cx, missed || outside && !enters);
@@ -294,7 +296,8 @@ impl Search<'_> {
         }
         let mut meets = math!(cx, !missed);
         if body.from_inside {
-            // Through a side that has no face, or from within: what it meets is where it leaves.
+            // If the ray comes through a side without a face, or from within, it meets the body where it
+            // leaves.
             let none = [entry.face, exit.face].map(|face| cx.is(face, NO_FACE));
             let from_outside = math!(cx, entered && !none[0]);
             meets = math!(
@@ -322,7 +325,7 @@ impl Search<'_> {
         (meets, entry)
     }
 
-    /// The planes that are asked one after the other, and each with its faces.
+    /// Updates `nearest` with `planes`, each with its faces, one after the other.
     fn planes<A: Arith>(
         &self,
         cx: &mut A,
@@ -353,7 +356,7 @@ impl Search<'_> {
         }
     }
 
-    /// Tells apart the faces of a plane, now that it is known where the ray meets it.
+    /// Distinguishes the faces of a plane, at the point where the ray meets it.
     fn resolve<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, plan: &Plan, nearest: &mut Running<A>) {
         let outer = plan
             .outer

@@ -1,4 +1,4 @@
-//! A scene made ready for the tracer.
+//! A scene prepared for the tracer.
 
 use super::bsdf::{Emitters, ScatterStage, rank};
 use super::camera::{self, CameraStage};
@@ -13,13 +13,13 @@ use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
 use std::collections::HashSet;
 
-/// By how much rounding may take a path's colour over its bound, in relation.
+/// The relative amount by which rounding may take a path's colour over its bound.
 const ROUNDING: f64 = 1e-12;
 
 /// Fraction of the greatest radiance below which a bound is rounding: the lamp faces away.
 const FACING_AWAY: f64 = 1e-9;
 
-/// A scene made ready for the tracer, for `C` colour channels that share their paths.
+/// A scene prepared for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
 pub struct Stage<const C: usize> {
     pub(crate) geometry: Geometry,
@@ -37,44 +37,45 @@ pub struct Stage<const C: usize> {
     pub(crate) emitters: Emitters<C>,
     /// Surfaces below this number scatter nothing.
     pub(crate) black: u32,
-    /// What scatters towards each ray but the first.
+    /// The scattering towards each ray except the first.
     pub(crate) scatters: Vec<ScatterStage<C>>,
     /// A bound on the distance between two points of the geometry.
     pub(crate) t_max: f64,
-    /// Where primary rays start, or the corners of the area that they start from, in stage units.
+    /// The points where primary rays start, or the corners of the area that they start from. In stage
+    /// units.
     pub(crate) starts: Vec<DVec3>,
     /// The numbers of the planes on which all primary rays start: they meet none of these.
     pub(crate) starts_on: Vec<u32>,
-    /// Whether paths may go on beyond each face.
+    /// By face: true if paths may go on beyond it.
     pub(crate) transmits: Vec<bool>,
-    /// Whether emission counts where the primary ray meets it.
+    /// True if emission counts at the primary hit.
     pub(crate) direct: bool,
-    /// Whether the last ray is searched for all that it may meet, and not for emitters alone.
+    /// True if the last ray is searched for every hit, and not for emitters alone.
     pub(crate) every_hit: bool,
     bound: [f64; C],
     limit: [f64; C],
 }
 
-/// What of a material takes numbers that no register holds.
+/// The value of a material that takes numbers too wide for a register.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WideValue {
     /// The material's name.
     pub material: String,
-    /// What kind of material it is: `bsdf`.
+    /// The kind of the material, such as `bsdf`.
     pub kind: &'static str,
-    /// Which of the material's keys: `value`.
+    /// The key of the value in the material, such as `value`.
     pub key: &'static str,
 }
 
 impl Stage<3> {
-    /// All three channels at once, in the order red, green, blue, for pixels of this class.
+    /// All three channels at once, in the order red, green, blue, for pixels of `class`.
     pub fn rgb(scene: &ValidScene, class: PixelClass) -> Self {
         Self::new(scene, [0, 1, 2], class)
     }
 }
 
 impl<const C: usize> Stage<C> {
-    /// The given channels (0 red, 1 green, 2 blue), for pixels of this class.
+    /// The given channels (0 red, 1 green, 2 blue), for pixels of `class`.
     pub fn new(scene: &ValidScene, channels: [usize; C], class: PixelClass) -> Self {
         let written = scene.scene();
         let depths = &written.sampling.depths;
@@ -178,7 +179,7 @@ impl<const C: usize> Stage<C> {
         }
     }
 
-    /// The same stage with radiances in units of the bound, so that no colour exceeds 1, but for rounding.
+    /// The same stage with radiances in units of the bound, so no colour exceeds 1, up to rounding.
     /// [`Stage::bound`] and [`Stage::limit`] stay in the scene's units.
     pub fn relative(mut self) -> Self {
         self.emitters.in_units(self.bound);
@@ -190,8 +191,7 @@ impl<const C: usize> Stage<C> {
         self
     }
 
-    /// The same stage, whose last rays are searched for all that they meet: it makes no difference
-    /// to colours.
+    /// The same stage, whose last rays are searched for every hit. Colours stay the same.
     pub fn with_every_hit(mut self) -> Self {
         self.every_hit = true;
         self
@@ -203,8 +203,8 @@ impl<const C: usize> Stage<C> {
         self
     }
 
-    /// How many rays of a path are traced: all, but for the last one where lamps are sampled and
-    /// rays that meet them count nothing.
+    /// Number of rays of a path that are traced. This excludes the last ray if lamps are sampled and rays
+    /// that meet them count nothing.
     pub fn traced_rays(&self) -> usize {
         let last = self.scatters.last();
         let lights = last.and_then(|scatter| scatter.lights.as_ref());
@@ -222,21 +222,21 @@ impl<const C: usize> Stage<C> {
         self.bound
     }
 
-    /// The greatest colour of a path that rounding may make of one within [`Stage::bound`], per channel, in
-    /// the scene's units.
+    /// The greatest colour of a path within [`Stage::bound`] after rounding. It is per channel, in the
+    /// scene's units.
     ///
-    /// The bound and a colour multiply the same numbers in different orders; and where the bound says
-    /// that a lamp lights nothing, since it faces away, rounding may leave a trace of its light.
+    /// The bound and a colour multiply the same numbers in different orders. If the bound excludes a lamp
+    /// because it faces away, rounding may leave a trace of its light.
     pub fn limit(&self) -> [f64; C] {
         self.limit
     }
 
-    /// How densely the rays of `depth` that leave `face` (by its label) are sampled, per steradian
-    /// around `incoming`: what other ways to sample light are weighed against. Directions are of
+    /// The density with which the rays of `depth` that leave `face` (by its label) are sampled. It is per
+    /// steradian around `incoming`. Other ways to sample light are weighted against it. Directions are of
     /// unit length, in the frame whose z axis is the normal on the side of `outgoing`.
     ///
-    /// None where no formula of the direction tells: for the primary rays, for surfaces that
-    /// reflect nothing or to single directions, and for an author's own map.
+    /// None if no formula of the direction gives it: for the primary rays, for surfaces that reflect
+    /// nothing or to single directions, and for a user-defined map without a stated density.
     pub fn density<A: Arith>(
         &self,
         cx: &mut A,
@@ -250,8 +250,8 @@ impl<const C: usize> Stage<C> {
         scatter.density(cx, surface, outgoing, incoming)
     }
 
-    /// By surface: the author's expression or number that its weight is computed from, if it is one
-    /// that may take numbers of any size.
+    /// By surface: the user's expression or number that its weight is computed from, if it may take numbers
+    /// of any size.
     pub(crate) fn values(&self, scene: &ValidScene) -> Vec<Option<WideValue>> {
         let value = |&surface: &usize| {
             let (name, material) = scene.scene().materials.get(surface)?;
@@ -286,7 +286,7 @@ impl<const C: usize> Stage<C> {
     }
 }
 
-/// The bound with what rounding may add, given the radiance of each emitter.
+/// The bound plus the amount that rounding may add, given the radiance of each emitter.
 fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]]) -> [f64; C] {
     std::array::from_fn(|c| {
         let most = radiance.iter().map(|row| row[c]).fold(0.0, f64::max);
@@ -299,7 +299,7 @@ fn frame_row(frame: &geometry::Frame) -> [f64; 9] {
     [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
 }
 
-/// Surfaces that some polygon has: the others cost nothing.
+/// By surface: true if some polygon has it. Unused surfaces cost nothing.
 fn used(scene: &ValidScene) -> Vec<bool> {
     let mut used = vec![false; scene.surfaces().len()];
     for polygon in scene.polygons() {
@@ -308,7 +308,7 @@ fn used(scene: &ValidScene) -> Vec<bool> {
     used
 }
 
-/// Sorts surfaces by lobe, and so that emitters (which are black or Lambertian) are neighbours.
+/// The key that sorts surfaces by lobe, with emitters (which are black or Lambertian) next to each other.
 fn sort_key(surface: &Surface) -> (u32, bool) {
     let (rank, emits) = (rank(&surface.scatter), surface.emits());
     (rank, emits == (rank == 0))

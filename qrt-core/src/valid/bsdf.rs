@@ -1,4 +1,4 @@
-//! From a BSDF as its author wrote it to one that can be traced, or all that is wrong with it.
+//! Compiles a user-defined BSDF to one that can be traced, or reports all problems with it.
 //!
 //! The map `phi(u, v)` gives i, the direction towards the light, in the local frame whose z is the
 //! normal on the viewer's side (`z < 0`: the path goes through). The value is `f(i, o)` with o
@@ -6,8 +6,8 @@
 //!
 //! `W = f |phi_z| J`, `J = |dphi/du x dphi/dv|`,
 //!
-//! see [`crate::sampling::maps`]. The checks sample a fixed set of points of the open square, the
-//! bound of the weight is a proof by interval arithmetic.
+//! see [`crate::sampling::maps`]. The checks sample a fixed set of points of the open square. The
+//! bound of the weight is proven by interval arithmetic.
 
 use super::CustomBsdf;
 use crate::expr::{Expr, Variable, Variables};
@@ -39,18 +39,19 @@ pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
     compile_with(bsdf, &mut KnownMap::default())
 }
 
-/// The work of checking one BSDF at least, in nodes of expressions that are evaluated: 0.5 ms.
+/// Minimum work of checking one BSDF, in evaluated nodes of expressions: 0.5 ms.
 const LEAST_WORK: u64 = 1 << 18;
-/// Points of the square and of the quadrature at which a value is evaluated for each viewer.
+/// Number of points of the square and of the quadrature at which a value is evaluated per viewer.
 const VALUES: u64 = 6400;
-/// As often its map is evaluated, and what follows from it.
+/// Number of points at which a map and quantities derived from it are evaluated.
 const MAPPED: u64 = 1 << 17;
-/// Work that takes about a minute, and for most half of one.
+/// Work that takes about a minute, and half a minute for most BSDFs.
 const MINUTE: u64 = 1 << 35;
-/// Checking the BSDFs of a scene may take so many minutes.
+/// Maximum time of checking the BSDFs of a scene, in minutes.
 pub(super) const MOST_MINUTES: u64 = 10;
 
-/// About how many minutes it takes to check such a BSDF after `last`, whose map may be the same.
+/// Returns the estimated time of checking `bsdf` after `last`, in minutes. A map equal to that of
+/// `last` takes no time.
 pub(super) fn minutes(bsdf: &Bsdf, last: Option<&Bsdf>) -> f64 {
     // A node takes at least a byte, and most take two.
     let nodes = |text: &String| text.len() as u64 / 2;
@@ -70,21 +71,21 @@ pub(super) fn minutes(bsdf: &Bsdf, last: Option<&Bsdf>) -> f64 {
     work as f64 / MINUTE as f64
 }
 
-/// The map of the last BSDF, and what was found out about it: materials of one scene mostly have one map.
+/// A cache of the last BSDF's map and its checks: materials of one scene mostly share one map.
 #[derive(Default)]
 pub(super) struct KnownMap(Option<([Expr; 3], Rc<MapChecks>)>);
 
-/// What is worked out about a map, once for all values.
+/// The results of checking a map, shared by all values.
 struct MapChecks {
-    /// What is wrong with it by itself.
+    /// The problem of the map by itself, if it has one.
     problem: Option<Problem>,
     /// `J |phi_z|`.
     projected_jacobian: Expr,
-    /// Its directions at [`shape::points`].
+    /// The map's directions at [`shape::points`].
     directions: OnceCell<Vec<[f64; 3]>>,
-    /// Its sums over the square.
+    /// The samples of the map for sums over the square.
     quadrature: light::Quadrature,
-    /// What it covers, by the first of the rules.
+    /// The cells of the map under the first rule of the coverage check.
     cells: OnceCell<Vec<coverage::Cell>>,
 }
 
@@ -98,7 +99,7 @@ impl MapChecks {
                 let other = (!bounded(&plain)).then(|| maps::projected_jacobian_by_azimuth(map));
                 other.filter(bounded).unwrap_or(plain)
             }
-            // It is not asked for.
+            // A placeholder: a map with a problem needs no Jacobian.
             Some(_) => map[2].clone(),
         };
         Self {
@@ -132,7 +133,7 @@ impl KnownMap {
     }
 }
 
-/// As [`compile`], with what is known of the BSDF before it.
+/// Compiles as [`compile`] does, with the cached checks of the previous BSDF's map.
 pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
@@ -194,7 +195,8 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
         problems.extend(wrong);
     }
     if problems.len() == before {
-        // What a wrong map would say of the energy is not the value's fault, nor a wrong Jacobian.
+        // A map with wrong coverage would falsify the energy, so the energy is not checked then.
+        // The map's own Jacobian is used here, since a stated one may be wrong.
         let quadrature = &checks.quadrature;
         for (i, f) in values.iter().enumerate() {
             problems.extend(quadrature.energy((&map, by_map), f, &value(i)));
@@ -226,7 +228,7 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
         }
     }
     if problems.is_empty() {
-        // Rounding's size below zero is zero, and what the points of the check have missed, too.
+        // Clamp a value that may be negative, by rounding or at points that the check has missed.
         let value = value.map(|f| {
             let f = f.simplify();
             if bound::may_be_negative(&f) {
@@ -247,8 +249,8 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
     }
 }
 
-/// What is not wrong with a BSDF, but surely not meant: `QRT0422` a value that is not reciprocal.
-/// Paths are relative to the BSDF.
+/// Returns warnings about the values of a BSDF, which are not errors but probably unintended:
+/// `QRT0422` a value that is not reciprocal. Paths are relative to the BSDF.
 pub fn warnings(values: &[Expr]) -> Vec<Problem> {
     let path = Path::root().key("value");
     let found = values
@@ -261,8 +263,8 @@ pub fn warnings(values: &[Expr]) -> Vec<Problem> {
 /// An upper bound, per channel, of `value * projected_jacobian` over u and v in (0, 1), cos_o in
 /// [0, 1] and cos_a in [-1, 1], with cos_i = |phi_z|: infinite if none can be shown.
 ///
-/// It is a proof up to rounding of the weight itself, for which 1e-9 is added. Use it also where a
-/// scene replaces a BSDF's own map.
+/// The bound is proven up to rounding of the weight itself, for which a relative 1e-9 is added. Use
+/// it also if a scene replaces a BSDF's own map.
 pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3]) -> Rgb {
     let mut bounds: Rgb = [0.0; 3];
     for i in 0..3 {
@@ -275,8 +277,8 @@ pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3
     bounds
 }
 
-/// The weight `value * projected_jacobian` as one expression without cos_i, which is `|phi_z|`, so
-/// that what cancels between them does: `0.1/cos_i` under the uniform map is a constant.
+/// Returns the weight `value * projected_jacobian` as one expression, with `|phi_z|` in place of
+/// cos_i. Common factors then cancel: `0.1/cos_i` under the uniform map is a constant.
 ///
 /// ```
 /// use qrt_core::expr::{Expr, Variable};

@@ -1,9 +1,10 @@
-//! A camera must look somewhere, and know which way is up.
+//! Checks that a camera has a view direction, and an `up` direction that is not along it.
 
 use crate::scene::Camera;
 use crate::syntax::{Camera as Fault, Path, Problem, Problems};
 
-/// Below this sine of the angle between view and `up`, rounding decides where right is.
+/// Minimum sine of the angle between view and `up`: below it, rounding decides the direction to the
+/// right.
 const LEAST_SINE: f64 = 1e-9;
 
 pub(super) fn check(camera: &Camera, problems: &mut Problems) {

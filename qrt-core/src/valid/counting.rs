@@ -1,10 +1,10 @@
-//! Strata of the comparator need an estimator that counts them, and a comparator that has them; an
-//! error to stop at needs one that stops.
+//! Checks of counting. Strata of the comparator need an estimator that counts them, and enough
+//! bits. An error to stop at needs an estimator that stops by itself.
 
 use crate::scene::{Estimator, Scene};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 
-/// The most strata of a comparator of so many bits: each halving fixes one.
+/// Maximum number of strata of a comparator of `comparator_bits` bits: each halving fixes one bit.
 pub const fn most_strata(comparator_bits: u32) -> u32 {
     comparator_bits + 1
 }

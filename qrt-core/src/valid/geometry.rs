@@ -1,7 +1,7 @@
-//! Primitives to polygons: each must have an area, and a quad must be convex.
+//! Converts primitives to polygons: each must have an area, and a quad must be convex.
 //!
-//! Sizes are relative to the primitive, so that a scene of 1e-6 units or one 1e9 units from the
-//! origin is judged as any other.
+//! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
+//! the origin, is treated like any other.
 
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::LARGEST;
@@ -14,17 +14,17 @@ use glam::DVec3;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 
-/// Twice the area over the square of the longest edge: below it, rounding decides where the normal
-/// points.
+/// Minimum of twice the area over the square of the longest edge: below it, rounding decides the
+/// direction of the normal.
 const LEAST_AREA: f64 = 1e-12;
-/// Distance of a corner from the plane of the others over the longest edge: below it, a quad is
-/// planar.
+/// Maximum distance of a corner of a planar quad from the plane of the others, relative to the
+/// quad's longest extent.
 const PLANAR: f64 = 1e-9;
 
-/// What a scene's primitives and meshes come to.
+/// The polygons of a scene's primitives and meshes.
 pub(super) struct Shapes {
     pub(super) polygons: Vec<Polygon>,
-    /// By primitive: its first polygon.
+    /// The first polygon of each primitive.
     pub(super) firsts: Vec<usize>,
     /// The files that were read for them, each once.
     pub(super) files: Vec<PathBuf>,
@@ -85,27 +85,28 @@ struct Build<'a> {
     out: Vec<Polygon>,
     /// Files that were read.
     files: BTreeSet<PathBuf>,
-    /// Unknown materials so far.
+    /// Number of unknown materials so far.
     unknown: usize,
-    /// By mesh, the first of its own materials among the surfaces: copies of a mesh share them.
+    /// For each mesh, the index of the first of its own materials in `surfaces`: copies of a mesh
+    /// share them.
     own_materials: HashMap<&'a str, u32>,
-    /// Whether a mesh was one too many.
+    /// True if a mesh has exceeded the limit on faces.
     is_full: bool,
 }
 
 impl<'a> Build<'a> {
-    /// The surface called `name`. An unknown one is reported, and the first stands for it, so that
-    /// the primitive's shape is still checked.
+    /// Returns the index of the surface called `name`. Reports an unknown name and returns the
+    /// first surface in its place, so that the primitive's shape is still checked.
     fn surface(&mut self, name: &str, path: &Path) -> u32 {
         if let Some(&surface) = self.names.get(name) {
             return surface;
         }
         let materials = Path::root().key("materials");
         if self.problems.covers(&materials) {
-            // Nobody knows which names there are.
+            // The materials are faulty, so the defined names are unknown.
             return 0;
         }
-        // Where very much is wrong, only the first get advice: it takes time.
+        // Finding the nearest name takes time, so only the first 100 unknown names get advice.
         self.unknown += 1;
         let advised = if self.unknown <= 100 { 1000 } else { 0 };
         let names = self.scene.materials.iter().map(|(name, _)| name.as_str());
@@ -123,7 +124,7 @@ impl<'a> Build<'a> {
         0
     }
 
-    /// Reports what is wrong with a primitive's shape, unless it may be due to a faulty vertex.
+    /// Reports the fault of a primitive's shape, unless a faulty vertex may have caused it.
     fn fault(&mut self, path: &Path, fault: Fault) {
         let path = path.key("vertices");
         if self.problems.touches(&path) {
@@ -243,7 +244,7 @@ impl<'a> Build<'a> {
     }
 }
 
-/// What is wrong with triangles of a mesh that cannot be placed.
+/// The constructor of a problem of triangles that cannot be placed.
 type Kind = fn(Triangles) -> Unplaced;
 
 fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
@@ -352,8 +353,8 @@ impl Transform {
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact at multiples of 90, so that what is parallel to an
-/// axis stays so.
+/// Returns the sine and cosine of an angle in degrees, exact at multiples of 90, so that edges
+/// parallel to an axis stay parallel.
 fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turn = libm::fmod(degrees, 360.0);
     let turn = if turn < 0.0 { turn + 360.0 } else { turn };

@@ -1,4 +1,4 @@
-//! Pieces of glass that touch.
+//! Checks that pieces of glass do not touch.
 
 use super::{Scatter, ValidScene};
 use crate::polygons::{Overlap, first_overlap, stage_units};
@@ -6,11 +6,12 @@ use crate::scene::Geometry;
 use crate::syntax::{Glass, Problem, Problems};
 use glam::DVec3;
 
-/// Overlaps narrower than this, against the size of the scene, are those of meshes whose corners were
-/// rounded.
+/// Minimum width of an overlap, relative to the size of the scene: narrower overlaps come from
+/// meshes with rounded corners.
 const SLIVER: f64 = 1e-6;
 
-/// Refuses faces of glass that overlap on one plane: a ray crosses them as one, and is refracted once.
+/// Refuses faces of glass that overlap on one plane: a ray crosses both as one, and is refracted
+/// once.
 pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     let is_glass = |surface: u32| {
         let surface = valid.materials.get(surface as usize);
@@ -19,7 +20,7 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     let glass: Vec<usize> = (0..valid.polygons.len())
         .filter(|&polygon| is_glass(valid.polygons[polygon].surface))
         .collect();
-    // Beside faulty primitives it is not known whose polygons are whose.
+    // With faulty primitives, the primitive of a polygon is not known.
     if glass.is_empty() || problems.count() > 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! Lamps to sample, surfaces to sample them from, and bits for it.
+//! Checks the sampling of lamps: lamps to sample, surfaces to sample them from, and enough bits.
 
 use super::{Polygon, Scatter, ValidScene};
 use crate::lights::{Reached, is_parallelogram, strongest};
@@ -6,11 +6,11 @@ use crate::scene::{Lights, Sequence};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 use glam::DVec3;
 
-/// Pairs of a surface's polygon and a lamp's for which a bound is looked for; beyond, none is.
+/// Maximum number of pairs of a surface's polygon and a lamp's for which a bound is computed.
 pub const MOST_PAIRS: usize = 1 << 18;
 
-/// Takes the sampling of lamps from scenes that have none or could not use it, with a warning; cuts
-/// lamps into shapes that can be sampled; and checks what the sampling asks for.
+/// Checks the sampling of lamps. If there is no lamp, or no surface that could use the sampling,
+/// removes the sampling with a warning. Cuts lamps into shapes that can be sampled.
 pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
     let sampling = &valid.scene.sampling;
     let depths = Path::root().key("sampling").key("depths");
@@ -20,7 +20,7 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         return;
     };
     if problems.count() > 0 {
-        // What is wrong elsewhere may be why nothing emits.
+        // Another problem may be the cause that nothing emits.
         return;
     }
     let light = |depth: usize| depths.item(depth).key("light");

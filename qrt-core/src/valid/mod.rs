@@ -1,8 +1,8 @@
-//! `Scene` -> [`ValidScene`], or every error at once.
+//! Validation: turns a `Scene` into a [`ValidScene`], or reports all errors at once.
 //!
-//! What a value may be by itself (its range) is part of its definition in [`crate::scene`]; here it
-//! is checked, along with what values must be to each other: names that are defined, primitives
-//! with an area, path indices that fit into a word.
+//! The range of each value is part of its definition in [`crate::scene`]. This module checks the
+//! ranges, and relations between values: names are defined, primitives have an area, path indices
+//! fit into a word.
 
 pub mod bsdf;
 mod camera;
@@ -32,44 +32,47 @@ use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// A checked scene, which everything downstream demands. It can be made by [`validate`] alone.
+/// A checked scene, which all later stages require. Only validation ([`validate`]) creates one.
 #[derive(Clone, Debug)]
 pub struct ValidScene {
     pub(crate) scene: Scene,
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
-    /// By primitive: its first polygon.
+    /// The first polygon of each primitive.
     pub(crate) firsts: Vec<usize>,
     pub(crate) files: Vec<PathBuf>,
     pub(crate) warnings: Vec<Problem>,
-    /// The number of the strategy that `uncompute: auto` takes, once it is found: it takes a search.
+    /// The number of the strategy that `uncompute: auto` chooses, cached because it takes a search.
     pub(crate) auto: OnceLock<usize>,
 }
 
-/// What a polygon's surface does: the scene's materials first, in their order, then those of MTL files.
+/// The emission and scattering of a surface. [`ValidScene::surfaces`] lists the scene's materials
+/// first, in their order, then those of MTL files.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// The name in the scene, or `FILE.mtl:NAME`.
     pub name: String,
     /// The radiance that leaves the front, in W/(sr m^2), linear RGB.
     pub radiance: Rgb,
-    /// How the surface scatters.
+    /// The surface's scattering.
     pub scatter: Scatter,
 }
 
 impl Surface {
-    /// Whether the surface emits in any channel.
+    /// True if the surface emits in any channel.
     pub fn emits(&self) -> bool {
         self.radiance.iter().any(|&channel| channel > 0.0)
     }
 
-    /// Whether paths may go on beyond the surface. A map of the author's own may lead there.
+    /// True if paths may continue beyond the surface. The map of a user-defined BSDF may lead
+    /// there.
     pub fn transmits(&self) -> bool {
         matches!(self.scatter, Scatter::Dielectric(_) | Scatter::Custom(_))
     }
 
-    /// Whether the surface reflects to more than single directions and tells how densely it samples
-    /// them, so that what it reflects of a lamp can be weighed against what its own rays find.
+    /// True if the surface reflects to more than single directions and has a known density of
+    /// sampled directions. Light of a lamp can then be weighed against light that the surface's own
+    /// rays find.
     pub fn samples_lights(&self) -> bool {
         match &self.scatter {
             Scatter::Black | Scatter::Mirror(_) | Scatter::Dielectric(_) => false,
@@ -79,7 +82,7 @@ impl Surface {
     }
 }
 
-/// How a surface scatters.
+/// The scattering of a surface.
 #[derive(Clone, Debug)]
 #[allow(missing_docs)]
 pub enum Scatter {
@@ -93,13 +96,13 @@ pub enum Scatter {
     Custom(Box<CustomBsdf>),
 }
 
-/// A checked BSDF of the user's own.
+/// A checked user-defined BSDF.
 #[derive(Clone, Debug)]
 pub struct CustomBsdf {
     /// The map phi(u, v) from the unit square to unit vectors, by component x, y, z.
     pub map: [Expr; 3],
-    /// `J |phi_z|`, in `u`, `v`: what multiplies `value` to make the weight `f |n.i| J`. With
-    /// `jacobian: auto` it is `|x_u y_v - x_v y_u|`, simplified, so that products that cancel do.
+    /// The factor `J |phi_z|`, in `u`, `v`, that turns `value` into the weight `f |n.i| J`. With
+    /// `jacobian: auto` it equals `|x_u y_v - x_v y_u|`, simplified so that common factors cancel.
     pub projected_jacobian: Expr,
     /// f, per channel, in `cos_i`, `cos_o`, `cos_a`, `u`, `v`.
     pub value: [Expr; 3],
@@ -114,7 +117,7 @@ pub struct CustomBsdf {
 pub struct Polygon {
     /// Corners; a triangle repeats its last one.
     pub vertices: [DVec3; 4],
-    /// How many corners the polygon has: 3 or 4.
+    /// Number of corners of the polygon: 3 or 4.
     pub corners: u8,
     /// The polygon's surface, as an index into [`ValidScene::surfaces`].
     pub surface: u32,
@@ -133,8 +136,9 @@ impl ValidScene {
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
-    /// The polygons of a primitive, as a range of [`ValidScene::polygons`]: one, or two of a quad
-    /// that is not planar, or all of a mesh. Empty where there is no such primitive.
+    /// Returns the polygons of a primitive, as a range of [`ValidScene::polygons`]: one, or two of
+    /// a quad that is not planar, or all of a mesh. The range is empty if there is no primitive of
+    /// that number.
     pub fn polygons_of(&self, primitive: usize) -> std::ops::Range<usize> {
         let end = self.polygons.len();
         let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);
@@ -146,7 +150,7 @@ impl ValidScene {
         after.saturating_sub(1)
     }
 
-    /// The place of that primitive in the scene.
+    /// Returns the place in the scene of the primitive that polygon number `polygon` belongs to.
     pub(crate) fn place_of(&self, polygon: usize) -> Path {
         let index = self.primitive_of(polygon);
         let place = Path::root().key("geometry").item(index);
@@ -156,13 +160,14 @@ impl ValidScene {
         }
     }
 
-    /// The mesh files and material libraries that were read, each once, as errors call them.
+    /// The mesh files and material libraries that were read, each once, under their names in
+    /// errors.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// The scene with only so many of its polygons, evenly taken, and a lamp if it has one: what a part of it
-    /// costs tells what the whole will. At least 2.
+    /// Returns the scene with at most `most` of its polygons, evenly spaced, and a lamp if it has
+    /// one. The cost of this part predicts the cost of the whole. `most` is at least 2.
     pub fn thinned(&self, most: usize) -> Self {
         let all = self.polygons.len();
         let lamp = |polygon: &&Polygon| self.materials[polygon.surface as usize].emits();
@@ -176,7 +181,8 @@ impl ValidScene {
         }
     }
 
-    /// The scene with only the first so many rays of each path, at least 1: what these cost tells what all will.
+    /// Returns the scene with only the first `most` rays of each path, at least 1. The cost of
+    /// these rays predicts the cost of all.
     pub fn with_rays(&self, most: usize) -> Self {
         let mut part = Self {
             auto: OnceLock::new(),
@@ -190,14 +196,14 @@ impl ValidScene {
         part
     }
 
-    /// What is not wrong, but surely not meant.
+    /// Returns the warnings about parts that are not errors but probably unintended.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
     }
 
-    /// FNV-1a, 128 bits, of the scene's canonical text (see [`Scene::fingerprint`]), of the corners
-    /// of all polygons, bit for bit, and of the surfaces that MTL files add: it changes with
-    /// whatever changes the picture, be it in the scene or in a mesh file.
+    /// Returns the 128-bit FNV-1a hash of the scene's canonical text (see [`Scene::fingerprint`]),
+    /// of the corners of all polygons, bit for bit, and of the surfaces that MTL files add. It
+    /// changes with everything that changes the picture, in the scene or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
@@ -229,7 +235,7 @@ impl ValidScene {
 /// Checks a scene and its meshes, which [`crate::front::obj::load_all`] reads.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// All problems of the scene.
 ///
 /// ```
 /// use qrt_core::scene::{Film, Scene};
@@ -248,14 +254,14 @@ pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, InvalidScen
     check(scene, meshes, Problems::default()).map_err(InvalidScene::new)
 }
 
-/// As [`validate`], of a scene in which `problems` were found as it was read.
+/// Checks as [`validate`] does, for a scene whose reading has found `problems`.
 pub(crate) fn check(
     scene: Scene,
     meshes: &Meshes,
     mut problems: Problems,
 ) -> Result<ValidScene, Vec<Problem>> {
     scene.check(&Place::ROOT, &mut problems);
-    // What is out of range by itself is not measured against anything else.
+    // A value out of its own range is not compared with other values.
     problems.finalize();
     camera::check(&scene.camera, &mut problems);
     sampling::check(&scene, &mut problems);
@@ -323,7 +329,8 @@ fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>)
     surfaces
 }
 
-/// That checking all BSDFs of their own takes too long, at the one with which it does; equal ones are checked once.
+/// Returns a problem if checking all user-defined BSDFs takes too long, at the BSDF that exceeds
+/// the limit. Equal BSDFs are checked once.
 fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
     let (mut known, mut minutes) = (HashSet::new(), 0.0);
     let (mut last, mut first) = (None, None);
@@ -344,7 +351,7 @@ fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
     first.map(|name| Problem::new(materials.key(name.as_str()).key("bsdf"), what))
 }
 
-/// A Lambertian, or black where nothing is reflected: the path then ends.
+/// Returns a Lambertian, or black if nothing is reflected: the path then ends.
 pub(crate) fn matte(albedo: Rgb) -> Scatter {
     if albedo == [0.0; 3] {
         Scatter::Black
@@ -353,8 +360,9 @@ pub(crate) fn matte(albedo: Rgb) -> Scatter {
     }
 }
 
-/// At normal incidence the lobe `(n + 2) / (2 pi) cos^n` has the albedo 1, at any other less; so
-/// kd + ks is the most that is reflected.
+/// Checks that a Phong surface does not reflect more than arrives. At normal incidence the lobe
+/// `(n + 2) / (2 pi) cos^n` has the albedo 1, at any other less, so kd + ks is the maximum that is
+/// reflected.
 fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
     let sums = phong
         .diffuse

@@ -1,7 +1,7 @@
-//! Warnings of what a scene holds in vain: pictures that must be black, lamps that hide each other,
-//! materials that nothing uses.
+//! Warnings about useless parts of a scene: pictures that must be black, lamps that hide each
+//! other, materials that nothing uses.
 //!
-//! A warning is a proof: where none is found within the effort that is spent, there is no warning.
+//! A warning is proven: if no proof is found within the effort limits, there is no warning.
 
 mod view;
 
@@ -14,13 +14,13 @@ use glam::DVec3;
 use std::collections::HashSet;
 use view::View;
 
-/// A distance, as a fraction of the largest coordinate, that is rounding.
+/// Maximum distance that counts as rounding, as a fraction of the largest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Unused materials that have a warning each; the last of them counts the others.
+/// Maximum number of warnings about unused materials; the last of them counts the others.
 const MOST_UNUSED: usize = 8;
 
-/// Polygons that are compared with lamps, in all.
+/// Maximum number of comparisons of a polygon with a lamp, in all.
 const MOST_COMPARED: usize = 1 << 24;
 
 /// Warnings of a scene without errors.
@@ -91,8 +91,8 @@ fn unlit(valid: &ValidScene) -> Option<Problem> {
     Some(Problem::new(valid.place_of(first), Unlit::LampsAway))
 }
 
-/// Polygons at which a path may end its last but one ray: those that scatter, as far as depth and
-/// camera tell.
+/// Returns the polygons at which the last but one ray of a path may end: those that scatter and
+/// that the number of rays and the camera do not exclude.
 fn receivers<'a>(valid: &'a ValidScene, view: &View) -> Vec<&'a Polygon> {
     let rays = valid.scene.sampling.depths.len();
     let scatters = |p: &&Polygon| {
@@ -108,7 +108,7 @@ fn receivers<'a>(valid: &'a ValidScene, view: &View) -> Vec<&'a Polygon> {
         .collect()
 }
 
-/// The corners of the box around all polygons; none if there is no polygon.
+/// Returns the corners of the box around all polygons; empty if there is no polygon.
 fn corners_around(polygons: &[&Polygon]) -> Vec<DVec3> {
     if polygons.is_empty() {
         return Vec::new();
@@ -118,7 +118,7 @@ fn corners_around(polygons: &[&Polygon]) -> Vec<DVec3> {
     (0..8).map(corner).collect()
 }
 
-/// Lamps behind the first of two in one place that face opposite ways, each with the first.
+/// Returns a warning for each lamp that lies on an earlier lamp which faces the opposite way.
 fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
     let lamps = valid.polygons.iter().enumerate();
     let lamps = lamps.filter(|(_, p)| emits(valid, p));
@@ -139,7 +139,7 @@ fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
             if place != first {
                 problem = problem.also(first);
             }
-            // Lamps of one primitive follow each other.
+            // Polygons of one primitive follow each other, and get one warning.
             if found.last().is_none_or(|known| known.at != problem.at) {
                 found.push(problem);
             }
@@ -152,7 +152,7 @@ fn emits(valid: &ValidScene, polygon: &Polygon) -> bool {
     valid.materials[polygon.surface as usize].emits()
 }
 
-/// The plane of a polygon, with the side that its front looks to.
+/// The plane of a polygon, with the side that its front faces.
 struct Plane {
     corner: DVec3,
     /// Of length 1.
@@ -170,7 +170,7 @@ impl Plane {
         }
     }
 
-    /// True if some of these points may lie before the front.
+    /// True if some of `points` may lie before the front.
     fn is_before(&self, points: &[DVec3]) -> bool {
         let allowed = self.rounding.max(rounding(points));
         let behind = |v: &DVec3| self.normal.dot(*v - self.corner) <= allowed;
@@ -185,7 +185,7 @@ impl Plane {
     }
 }
 
-/// A distance that is rounding where coordinates are those of these points.
+/// Returns the maximum distance that counts as rounding for coordinates like those of `points`.
 fn rounding(points: &[DVec3]) -> f64 {
     let largest = points.iter().map(|v| v.abs().max_element());
     ROUNDING * largest.fold(0.0, f64::max)

@@ -1,12 +1,12 @@
-//! One scene under other parameters.
+//! The parameters of a scene, and the same scene under other parameters.
 
 use super::{ValidScene, counting, lights, sampling};
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
 use crate::syntax::{Place, Problem, Problems};
 
-/// What of a scene trades accuracy for cost: all that is not seen in its picture's limit, but for
-/// the number of [`Sampling::depths`].
+/// The parameters of a scene that trade accuracy for cost. The limit of the picture depends on none
+/// of them but the number of [`Sampling::depths`].
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct Parameters {
@@ -18,7 +18,8 @@ pub struct Parameters {
 }
 
 impl ValidScene {
-    /// The scene's parameters. Under `accuracy` those that it chooses have their defaults.
+    /// Returns the scene's parameters. Under `accuracy`, the parameters that it chooses have their
+    /// defaults.
     pub fn parameters(&self) -> Parameters {
         let scene = &self.scene;
         Parameters {
@@ -30,12 +31,12 @@ impl ValidScene {
         }
     }
 
-    /// The same scene under other parameters, and without an `accuracy` that would choose them.
-    /// Geometry and materials are as they were read, but for lamps that are sampled now and were not:
-    /// they are cut into shapes that can be.
+    /// Returns the same scene under other parameters, and without an `accuracy` that would choose
+    /// them. Geometry and materials stay as they were read, except lamps that were not sampled
+    /// before and are now: they are cut into shapes that can be sampled.
     ///
     /// # Errors
-    /// Everything that is wrong with the parameters.
+    /// All problems of the parameters.
     ///
     /// ```
     /// # let text = "

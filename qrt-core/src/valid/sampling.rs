@@ -1,17 +1,18 @@
-//! Path indices must fit into words, the net must have its dimensions, and parameters must not
-//! contradict.
+//! Checks that path indices fit into words, that the net has enough dimensions, and that parameters
+//! do not contradict each other.
 
 use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
 use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, finalize};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 
-/// The most bits of path index and comparator together: counts of their basis states stay within
-/// 64-bit words.
+/// Maximum number of bits of path index and comparator together: counts of their basis states stay
+/// within 64-bit words.
 pub const MAX_ID_BITS: u32 = 62;
-/// The most rays of a path under the digital net, which needs two dimensions for each, and two for
-/// each point on a lamp.
+/// Maximum number of rays of a path under the digital net, which needs two dimensions for each, and
+/// two for each point on a lamp.
 pub const MAX_NET_DEPTHS: usize = MAX_DIMENSIONS / 2;
-/// The most rays of a path under the product lattice, most of which have no bits: each takes memory.
+/// Maximum number of rays of a path under the product lattice. At the maximum most rays have no
+/// bits, but each takes memory.
 const MAX_LATTICE_DEPTHS: usize = 1024;
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {

@@ -123,7 +123,7 @@ fn phong_lobes_reflect_at_most_what_arrives() {
     }
 }
 
-/// What a scene's text is refused for, its other parameters are.
+/// Checks that parameters are refused for the same problems as a scene's text.
 #[test]
 fn lamps_are_looked_at_when_parameters_begin_to_sample_them() {
     let text = "

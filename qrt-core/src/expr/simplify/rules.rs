@@ -4,8 +4,8 @@ use super::{Atom, Canon, Factor, Product, Sum, is_even, is_integer, negated, num
 use crate::expr::Function;
 
 impl Canon {
-    /// A product to a power. A root may be taken of a factor alone only if the factor is known
-    /// not to be negative; those of unknown sign stay together.
+    /// Raises a product to a power. A root is taken of a factor alone only if the factor is known
+    /// not to be negative; factors of unknown sign stay together.
     pub(super) fn power(&mut self, base: &Product, exponent: f64) -> Option<Product> {
         let raised =
             |factor: &Factor| Factor::new(factor.atom, settled(factor.exponent * exponent));
@@ -84,7 +84,7 @@ impl Canon {
             let cos = self.function(Function::Cos, operand)?;
             return self.divide(&sin, &cos);
         }
-        // Odd and even functions of -x are those of x.
+        // f(-x) is -f(x) for odd functions, and f(x) for even ones.
         let odd = matches!(f, Function::Sin | Function::Asin | Function::Atan);
         if operand[0].coefficient < 0.0 && (odd || f == Function::Cos) {
             let positive = self.function(f, &negated(operand))?;

@@ -1,4 +1,4 @@
-//! From the canonical form back to nodes.
+//! Converts the canonical form back to nodes.
 
 use super::{Atom, Canon, Product, Sum, is_integer};
 use crate::expr::arena::Arena;
@@ -48,7 +48,8 @@ impl Writer<'_> {
         Some(self.arena.finish(root))
     }
 
-    /// A number's power is written into the coefficient, so such an atom has no node.
+    /// Writes an atom. The power of a number goes into the coefficient, so a number has no node
+    /// here.
     fn atom(&mut self, atom: &Atom) -> Option<Id> {
         let node = match atom {
             Atom::Number(_) => return None,

@@ -1,4 +1,4 @@
-//! The material libraries of a mesh: what their materials reflect and emit.
+//! The material libraries of a mesh: the albedos and radiances of their materials.
 
 use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
 use crate::scene::Rgb;
@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 #[derive(Default)]
 pub(super) struct Materials {
     list: Vec<Material>,
-    /// Their places by name; only looked up.
+    /// Indices into `list` by name. The map is only looked up, never walked.
     by_name: HashMap<String, usize>,
 }
 
-/// What a material says that a scene uses.
+/// The properties of a material that a scene uses.
 struct Material {
     name: String,
     file: String,
@@ -25,8 +25,8 @@ struct Material {
 }
 
 impl Materials {
-    /// Those of the libraries that the OBJ file at `obj` names, each name with its line. The files
-    /// are added to `files`.
+    /// Reads the libraries that the OBJ file at `obj` names; `names` has each name with its line.
+    /// Adds their paths to `files`.
     pub(super) fn read(
         obj: &Path,
         names: &[(String, usize)],
@@ -55,7 +55,7 @@ impl Materials {
         Ok(materials)
     }
 
-    /// The place of `name` in the list.
+    /// Returns the index of the material `name` in the list.
     pub(super) fn find(&self, name: &str, no_libraries: bool) -> Result<usize, MeshFile> {
         self.by_name.get(name).copied().ok_or_else(|| {
             let names = self.list.iter().map(|material| material.name.as_str());
@@ -78,7 +78,7 @@ impl Materials {
         self.list.into_iter().map(public).collect()
     }
 
-    /// Adds those of the library at `path`, which the OBJ file calls `file`.
+    /// Adds the materials of the library at `path`, which the OBJ file calls `file`.
     fn add_all(&mut self, path: &Path, file: &str, bytes: &[u8]) -> Result<(), ObjError> {
         let first = self.list.len();
         for (line, statement) in statements(&text_of(path, bytes)?) {
@@ -87,7 +87,7 @@ impl Materials {
                 "Kd" | "Ke" | "map_Kd" | "map_Ke" => {
                     set(self.list[first..].last_mut(), keyword, rest)
                 }
-                // What has no part in a scene; its operands are of many kinds.
+                // Other statements have no meaning in a scene, and operands of many kinds.
                 _ => Ok(()),
             });
             read.map_err(|what| ObjError::new(what, path, line))?;
@@ -121,7 +121,7 @@ impl Materials {
     }
 }
 
-/// What a statement says of the colours of the material that it stands below.
+/// Sets the colour of a statement in `material`, the material above it.
 fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(), MeshFile> {
     let owned = keyword.to_owned();
     let Some(material) = material else {
@@ -146,7 +146,7 @@ fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(),
     Ok(())
 }
 
-/// `r g b`, or one number for grey.
+/// Reads `r g b`, or one number for grey.
 fn colour(keyword: &str, rest: &str) -> Result<Rgb, MeshFile> {
     let keyword = keyword.to_owned();
     if let Some(space @ ("spectral" | "xyz")) = words(rest).next() {

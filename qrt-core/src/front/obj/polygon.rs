@@ -1,17 +1,17 @@
-//! From a polygon to triangles: a fan where it is convex, else ears cut off one by one.
+//! Cuts polygons into triangles: a fan if convex, else by ear clipping.
 
 use crate::syntax::MeshFile;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
-/// More corners than a face that is not convex may have: cutting ears takes up to their cube.
+/// Maximum number of corners of a face that is not convex: ear clipping takes up to their cube.
 const MAX_CONCAVE: usize = 256;
 
-/// An area, as a fraction of the square of the longest edge, that is rounding alone.
+/// Maximum of twice an area, relative to the square of the longest edge, that counts as rounding.
 const NO_AREA: f64 = 1e-14;
 
-/// The triangles of a polygon of three or more corners, wound as it is; none is without area. A corner
-/// that repeats the one before it is dropped.
+/// Returns the triangles of a polygon of three or more corners, wound as it is; each has an area. A
+/// corner that repeats the one before it is dropped.
 pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> {
     let corners = &distinct(corners)[..];
     if let [a, b, c] = *corners {
@@ -38,8 +38,8 @@ pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> 
     Ok(indices.iter().map(place).collect())
 }
 
-/// The corners of an outline without those that stand where the one before stands: edges without length
-/// do not change it.
+/// Returns the corners of an outline without consecutive duplicates: edges without length do not
+/// change it.
 fn distinct(corners: &[DVec3]) -> Cow<'_, [DVec3]> {
     let closes = corners.first() == corners.last();
     if !(closes || corners.windows(2).any(|pair| pair[0] == pair[1])) {
@@ -64,7 +64,7 @@ fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, MeshFile> {
     Ok(twice > NO_AREA * longest)
 }
 
-/// The polygon seen along the axis that its (Newell) normal is nearest to, counterclockwise.
+/// Projects the polygon along the axis nearest to its (Newell) normal, counterclockwise.
 fn flatten(corners: &[DVec3]) -> Result<Vec<DVec2>, MeshFile> {
     let mut normal = DVec3::ZERO;
     let mut longest: f64 = 0.0;
@@ -94,7 +94,8 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// No right turn, and once around: a star turns left only, too, but twice around.
+/// True if the outline has no right turn and goes around once: a star has only left turns, too, but
+/// goes around twice.
 fn is_convex(flat: &[DVec2]) -> bool {
     let n = flat.len();
     let at = |i: usize| flat[i % n];
@@ -121,7 +122,7 @@ fn ears(flat: &[DVec2]) -> Result<Vec<[usize; 3]>, MeshFile> {
     Ok(triangles)
 }
 
-/// A left turn of some area with no other corner in it.
+/// True if `triangle` is a left turn of some area, with no other corner in it.
 fn is_ear(flat: &[DVec2], left: &[usize], triangle: [usize; 3]) -> bool {
     let [a, b, c] = triangle.map(|i| flat[i]);
     let longest = (b - a).length_squared().max((c - b).length_squared());

@@ -1,4 +1,4 @@
-//! The check of an OBJ file, statement by statement, as `tobj` reads it.
+//! Checks an OBJ file, statement by statement, as `tobj` reads it.
 
 use super::{Faces, ObjError, name, numbers, split, statements, words};
 use crate::syntax::{MeshFile, nearest};
@@ -12,31 +12,31 @@ const READ: &str = "v vt vn f mtllib usemtl";
 /// Statements that have no part in a mesh's shape.
 const IGNORED: &str =
     "o g s mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
-/// Statements whose shapes would be missing.
+/// Statements that are refused, because their shapes would be missing.
 const CURVED: &str =
     "cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
 
-/// What corners refer to.
+/// The kinds of elements that corners refer to.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Reads as the `v` and `f` statements of a file, all statements of which it checks.
+/// A reader of the `v` and `f` statements of a file, which checks all its statements.
 pub(super) struct Scanner<'a> {
     path: &'a Path,
     statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
     wants_materials: bool,
-    /// As many triangles there may be, and three times as many vertices.
+    /// Maximum number of triangles; three times that number is the maximum of vertices.
     most: Faces,
     /// The triangles of the faces so far.
     pub(super) triangles: usize,
-    /// How many there are so far of each of [`KINDS`].
+    /// Number of elements so far of each of [`KINDS`].
     counts: [i64; 3],
     /// The greatest index of each kind so far, and its line: a vertex may follow its face.
     greatest: [(i64, usize); 3],
     /// The statement that is being read.
     pending: VecDeque<u8>,
-    /// What is wrong: the reader of this sees only that something is.
+    /// The error: the reader of this stream sees only that there is one.
     pub(super) fault: Option<ObjError>,
-    /// The line of each face, and the place in `uses` of its material.
+    /// The line of each face, and the index in `uses` of its material.
     pub(super) faces: Vec<(usize, Option<usize>)>,
     /// Names after `usemtl`, with their lines.
     pub(super) uses: Vec<(String, usize)>,
@@ -130,7 +130,7 @@ impl<'a> Scanner<'a> {
         self.pending.push_back(b'\n');
     }
 
-    /// `v x y z`, `v x y z w` or `v x y z r g b`, whose colours are dropped.
+    /// Reads `v x y z`, `v x y z w` or `v x y z r g b`, and drops the colours.
     fn vertex(&mut self, rest: &str) -> Result<(), MeshFile> {
         let kept = match counted("v", rest, 3, 6)?[..] {
             [x, y, z, w] if (DVec3::new(x, y, z) / w).is_finite() => 4,
@@ -169,7 +169,7 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 1, or backwards from -1.
+    /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices from 1, or backwards from -1.
     fn corner(&mut self, line: usize, corner: &str) -> Result<(), MeshFile> {
         for (kind, part) in corner.split('/').enumerate() {
             if part.is_empty() && (1..3).contains(&kind) {
@@ -198,7 +198,7 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    /// What can be told at the end only.
+    /// Makes the checks that are possible only at the end.
     fn finish(&self) -> Result<(), ObjError> {
         for ((count, kind), (index, line)) in self.counts.into_iter().zip(KINDS).zip(self.greatest)
         {

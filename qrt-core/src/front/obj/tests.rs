@@ -1,4 +1,4 @@
-//! What the reader promises: right meshes as they are, wrong ones refused at their line.
+//! Tests of the reader: valid meshes are read as they are, wrong ones are refused at their line.
 
 mod lines;
 
@@ -209,7 +209,7 @@ fn faces_take_the_materials_of_their_libraries() {
     ];
     let mesh = read_with(text, &files).unwrap();
     assert_eq!(mesh.faces[0].material, Some(1));
-    // Whoever brings a material needs no library.
+    // A mesh with a material of the scene needs no library.
     assert_eq!(read(TWO).unwrap().faces.len(), 3);
     assert!(read(TWO).unwrap().materials.is_empty());
 }
@@ -516,7 +516,7 @@ fn entries_that_name_one_file_share_its_mesh() {
             assert_eq!(problems[4999].words().label, "two.obj:11");
         }
     }
-    // Nobody read it: validation does not either.
+    // The file was not read, and validation does not read it.
     let problems = crate::valid::validate(scene, &Meshes::default()).unwrap_err();
     assert_eq!(problems.len(), 5000);
     assert_eq!(problems[0].code(), codes::OBJ_UNREADABLE);
@@ -603,7 +603,7 @@ proptest! {
                     prop_assert!(m.radiance.iter().all(|x| *x >= 0.0 && x.is_finite()));
                 }
             }
-            // What the scan lets through, the reader behind it takes.
+            // The reader behind the scan accepts everything that the scan passes on.
             Err(error) => prop_assert_ne!(error.what.words().code, "QRT0344", "{}", error),
         }
     }

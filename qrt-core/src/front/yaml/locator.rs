@@ -1,4 +1,4 @@
-//! Lines and columns of characters to bytes.
+//! Converts lines and columns of characters to bytes.
 
 use crate::syntax::line_starts;
 use crate::syntax::tree::Span;
@@ -10,10 +10,10 @@ pub(super) struct Locator<'a> {
     /// Added to every offset.
     base: usize,
     number: u32,
-    /// Where each line starts; a line ends in LF, CR LF or CR, as in YAML.
+    /// The start of each line; a line ends in LF, CR LF or CR, as in YAML.
     lines: Vec<usize>,
-    /// The last answer (line, column, byte): events come mostly in order, and long lines are thus
-    /// walked once.
+    /// The last result (line, column, byte): events mostly come in order, so long lines are walked
+    /// once.
     last: (usize, usize, usize),
 }
 
@@ -31,7 +31,7 @@ impl<'a> Locator<'a> {
         }
     }
 
-    /// The byte in `text` of a marker; past the end, the end.
+    /// Returns the byte in `text` of a marker; past the end, the end.
     pub(super) fn offset(&mut self, marker: &Marker) -> usize {
         let (line, column) = (marker.line().max(1), marker.col());
         let (last_line, last_column, last_byte) = self.last;
@@ -63,7 +63,7 @@ impl<'a> Locator<'a> {
         }
     }
 
-    /// The word that starts at `at`, or the one character there.
+    /// Returns the word that starts at `at`, or the one character there.
     pub(super) fn word(&self, at: usize) -> Span {
         let rest = self.text.get(at..).unwrap_or_default();
         let word = |c: char| c.is_alphanumeric() || "_-*&!".contains(c);
@@ -77,7 +77,7 @@ impl<'a> Locator<'a> {
         }
     }
 
-    /// `at`, if a tab indents its line; else the first tab that indents a line below it.
+    /// Returns `at`, if a tab indents its line; else the first tab that indents a line below it.
     pub(super) fn indented_by_tab(&self, at: usize) -> Option<usize> {
         let line = self.lines.partition_point(|&start| start <= at).max(1) - 1;
         let tab = |start: &usize| {

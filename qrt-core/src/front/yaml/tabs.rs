@@ -1,16 +1,16 @@
-//! Tabs between a key's colon and its value, which YAML allows and `saphyr-parser` refuses before letters,
-//! digits and signs: there, it takes them for an indentation.
+//! Replaces tabs between a key's colon and its value. YAML allows them, but `saphyr-parser` refuses
+//! them before letters, digits and signs, because it takes them for an indentation.
 
 use super::Locator;
 use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The text with spaces in place of such tabs, byte for byte.
+/// Returns the text with a space in place of each tab between a colon and a value, byte for byte.
 ///
-/// The parser alone knows which tabs are in quotes or in a block of text. So it reads the text with all tabs
-/// replaced, which changes no place, and those that it finds there are kept. What follows an error of syntax
-/// is not read: there, it does not matter.
+/// Only the parser knows which tabs are in quotes or in a block of text. So it reads the text with
+/// all tabs replaced, which changes no place; tabs that turn out to be in quotes or blocks are then
+/// kept. Text after a syntax error is not read, and its tabs do not matter.
 pub(super) fn spaced(text: &str) -> Cow<'_, str> {
     let tabs = behind_colons(text);
     if tabs.is_empty() {
@@ -26,7 +26,8 @@ pub(super) fn spaced(text: &str) -> Cow<'_, str> {
     Cow::Owned(replaced(text, &tabs))
 }
 
-/// The runs of tabs between a colon and a character before which the parser refuses them, wherever they are.
+/// Returns the runs of tabs between a colon and a character before which the parser refuses them,
+/// in quotes or not.
 fn behind_colons(text: &str) -> Vec<Range<usize>> {
     let refused = |next: char| next.is_ascii_alphanumeric() || matches!(next, '-' | '_');
     let colons = text.match_indices(":\t");
@@ -38,7 +39,7 @@ fn behind_colons(text: &str) -> Vec<Range<usize>> {
     tabs.collect()
 }
 
-/// The text with spaces in these places.
+/// Returns the text with spaces in `places`.
 fn replaced(text: &str, places: &[Range<usize>]) -> String {
     let mut spaced = String::with_capacity(text.len());
     for place in places {
@@ -49,8 +50,8 @@ fn replaced(text: &str, places: &[Range<usize>]) -> String {
     spaced
 }
 
-/// The places of scalars in quotes and of blocks of text, up to the first error of syntax. No others have a
-/// colon before a blank.
+/// Returns the places of quoted scalars and of blocks of text, up to the first syntax error. No
+/// other scalar has a colon before a blank.
 fn contents(text: &str) -> Vec<Range<usize>> {
     let mut locator = Locator::new(text, 0, 0);
     let events = Parser::new_from_str(text).map_while(Result::ok);

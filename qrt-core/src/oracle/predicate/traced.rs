@@ -110,14 +110,15 @@ pub(super) fn traced(
     Ok((oracle, registers))
 }
 
-/// What the numbers of a path are, as the builder has them.
+/// The values in the builder that the numbers of a path are computed from.
 struct Reader<'a> {
     formats: &'a PathFormats,
     stage: &'a Stage<3>,
-    /// By face: its number in registers, and its material's.
+    /// By face: its number in registers.
     face_numbers: Vec<u32>,
+    /// By face: the number of its material in registers.
     material_numbers: Vec<u32>,
-    /// By channel, in units of its bound.
+    /// The colours by channel, in units of the channel's bound.
     colours: [Real; 3],
 }
 
@@ -135,7 +136,7 @@ impl Reader<'_> {
             }
         };
         let Some(segment) = cx.segment(depth) else {
-            // No path goes so far.
+            // No path has this ray.
             let zero = cx.real(0.0);
             return cx.number_in(zero, shape, 0);
         };
@@ -166,7 +167,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the face is met on its front; anything where none is.
+    /// True if the ray meets the front of its face; arbitrary if it meets none.
     fn front<'a>(&self, cx: &mut Builder<'a>, segment: &Segment<Builder<'a>>) -> Bool {
         if let Some(front) = segment.front {
             return front;
@@ -178,7 +179,7 @@ impl Reader<'_> {
     }
 }
 
-/// The register of the entry of the face that is met; 0 where none is.
+/// The register of the entry of the face that the ray meets; 0 if it meets none.
 fn entry_in<'a>(
     cx: &mut Builder<'a>,
     segment: &Segment<Builder<'a>>,
@@ -191,7 +192,7 @@ fn entry_in<'a>(
     cx.index_in(entry, width)
 }
 
-/// A number where `when` holds, and 0 elsewhere.
+/// The register of a number that is `number` if `when` holds, and 0 otherwise.
 fn number_where(
     cx: &mut Builder<'_>,
     when: Bool,

@@ -6,7 +6,7 @@ use crate::syntax::tree::{Entry, Found, Node, Value};
 use crate::syntax::{Datum, Expected, Material, Place, Problems, Structure, What};
 use glam::DVec3;
 
-/// A list of exactly N.
+/// A list of exactly `N` elements.
 pub(crate) struct Array<S, const N: usize>(pub(crate) S);
 
 impl<S: Shape, const N: usize> Array<S, N> {
@@ -93,7 +93,7 @@ impl Shape for Vector {
     }
 }
 
-/// A list of any length from a least one.
+/// A list of at least `least` elements.
 pub(crate) struct List<S> {
     pub(crate) item: S,
     pub(crate) least: usize,
@@ -208,7 +208,7 @@ impl<S: Shape> Shape for Maybe<S> {
 /// `auto`, or a value.
 pub(crate) struct AutoOr<S>(pub(crate) S);
 
-/// Whether `node` is the word `auto`.
+/// True if `node` is the word `auto`.
 pub(crate) fn is_auto(node: &Node) -> bool {
     matches!(&node.value, Value::Scalar(scalar) if scalar.text == "auto")
 }

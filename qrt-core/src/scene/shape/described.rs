@@ -2,7 +2,7 @@
 
 use crate::scene::text::Data;
 
-/// The schema of a record: its keys, those that must be there, and no others.
+/// Returns the schema of a record: its keys, the required ones, and no others.
 pub(crate) fn record_schema(
     doc: &str,
     fields: Vec<(&str, &str, bool, Data, Option<Data>)>,
@@ -32,7 +32,7 @@ pub(crate) fn record_schema(
     schema.with("additionalProperties", Data::Bool(false))
 }
 
-/// The schema of a variant: a map with exactly one of the keys.
+/// Returns the schema of a variant: a map with exactly one of the keys.
 pub(crate) fn variant_schema(doc: &str, kinds: Vec<(&str, &str, Data)>) -> Data {
     let properties = kinds.into_iter();
     let properties = properties.map(|(name, doc, part)| (name.to_owned(), described(doc, part)));
@@ -46,7 +46,7 @@ pub(crate) fn variant_schema(doc: &str, kinds: Vec<(&str, &str, Data)>) -> Data 
     ])
 }
 
-/// `schema` with `doc` as its description, in place of its own.
+/// Returns `schema` with `doc` as its description, in place of its own.
 fn described(doc: &str, schema: Data) -> Data {
     let mut entries = vec![("description".to_owned(), Data::text(doc.trim()))];
     if let Data::Map(own) = schema {

@@ -1,9 +1,9 @@
-//! What can be wrong with the paths of a scene, and with the circuit that it compiles to.
+//! Problems with the paths of a scene, and with the circuit that it compiles to.
 
 use super::grouped;
 
 problems! {
-    /// Of paths, comparators and accuracy.
+    /// Problems with paths, comparators and accuracy.
     Sampling {
         PrimaryMap = PRIMARY_MAP "the primary ray has no map: it samples the pixel square"
             help "remove it; the maps of reflected rays start with the second entry";
@@ -57,7 +57,7 @@ problems! {
             "{path} path bits, but the product lattice's coordinates have {sum} in all";
     }
 
-    /// Of the circuit that a scene compiles to.
+    /// Problems with the circuit that a scene compiles to.
     Circuit {
         Qubits { used: u64, most: u64, auto: bool } = BUDGET_QUBITS
             { over(*used, *most, "qubits") } label { format!("at most {}", grouped(*most)) }

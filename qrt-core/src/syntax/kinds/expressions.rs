@@ -1,10 +1,10 @@
-//! What can be wrong with expressions, and with the BSDFs that they define.
+//! Problems with expressions, and with the BSDFs that they define.
 
 use super::{meant, rounded, shorten};
 use std::fmt;
 
 problems! {
-    /// Of an expression's text.
+    /// Problems with an expression's text.
     Expression {
         TooLong { bytes: usize, most: usize } = EXPR_SIZE
             "expression of {bytes} bytes; the limit is {most}";
@@ -62,7 +62,8 @@ problems! {
         NotANumber { text: String } = EXPR_NUMBER "`{text}` is not a number";
     }
 
-    /// Of what a BSDF's expressions mean; points are those of the unit square.
+    /// Problems with the meaning of a BSDF's expressions. Pairs of numbers are points (u, v) of the
+    /// unit square, except in `NotReciprocal`, which has (cos_i, cos_o).
     Bsdf {
         Channels { count: usize } = BSDF_CHANNELS
             "a BSDF has one value (grey) or three (RGB), not {count}";
@@ -143,7 +144,7 @@ problems! {
 /// Variables of expressions with their values.
 type Variables = Vec<(&'static str, f64)>;
 
-/// What was stated in place of a map's Jacobian.
+/// The mistake in a stated Jacobian or density.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mistake {
     Inverse,
@@ -185,13 +186,13 @@ fn point([u, v]: [f64; 2]) -> String {
     format!("u = {}, v = {}", rounded(u), rounded(v))
 }
 
-/// The number, down to four digits.
+/// Rounds `number` down to four digits.
 fn rounded_down(number: f64) -> f64 {
     let unit = 10_f64.powf(number.log10().floor() - 3.0);
     (number / unit).floor() * unit
 }
 
-/// How often a map covers directions.
+/// Describes how often a map covers directions.
 fn covered(around: [f64; 3], times: f64, whole: f64) -> String {
     let [x, y, z] = around.map(|c| rounded((c * 100.0).round() / 100.0));
     let times = rounded((times * 10.0).round() / 10.0);
@@ -202,7 +203,7 @@ fn covered(around: [f64; 3], times: f64, whole: f64) -> String {
     )
 }
 
-/// What a map must do.
+/// Returns the advice for a map that does not cover each direction once.
 fn once() -> String {
     "let each direction that the value reflects to come from one point of the square, as with \
      sqrt(u)*cos(2*pi*v), sqrt(u)*sin(2*pi*v), sqrt(1-u)"

@@ -1,11 +1,11 @@
-//! What can be wrong with a mesh's file, and with the material libraries that it names.
+//! Problems with a mesh's file, and with the material libraries that it names.
 
 use super::shorten;
 use crate::syntax::codes;
 use std::path::PathBuf;
 
 problems! {
-    /// Of a mesh's file or of its libraries.
+    /// Problems with a mesh's file or of its libraries.
     MeshFile {
         NotRead { name: String } = OBJ_UNREADABLE "`{name}` is not among the meshes that were read";
         Irregular { file: PathBuf, is_library: bool } = { unreadable(*is_library) }
@@ -118,7 +118,7 @@ fn unreadable(is_library: bool) -> &'static str {
     }
 }
 
-/// The code of a number that is none: a library has one for all its statements.
+/// Returns the code of an invalid number. A library has one code for all its statements.
 fn statement(is_library: bool, of_mesh: &'static str) -> &'static str {
     if is_library {
         codes::MTL_STATEMENT

@@ -1,5 +1,5 @@
-//! What can be wrong, concept by concept: each problem with its code, its arguments and the words that
-//! the author of a scene's text reads. The macro words some of them otherwise, by their variants.
+//! The kinds of problems, by concept: each has a code, arguments and a message to the author of a
+//! scene's text. The macro `qrt!` matches the variants to word some of them differently.
 
 #![allow(
     missing_docs,
@@ -16,37 +16,37 @@ use std::fmt;
 pub struct Words {
     /// The stable code of the problem: `QRT0101`.
     pub code: &'static str,
-    /// What is wrong, in one sentence without a full stop.
+    /// The problem in one sentence, without a full stop.
     pub message: String,
-    /// What stands beside the caret; may be empty.
+    /// The label beside the caret; may be empty.
     pub label: String,
-    /// The right thing to write; none if nothing can be advised.
+    /// The suggested fix; `None` if there is none.
     pub help: Option<String>,
-    /// What the other place is that matters: "first written here"; may be empty.
+    /// The label of the second place, such as "first written here"; may be empty.
     pub also: &'static str,
 }
 
-/// `"a {text}"` with the arguments put in, or `{ an expression }`.
+/// Expands to a text: the formatted literal `"a {text}"`, or the expression in `{ .. }`.
 macro_rules! text {
     () => { String::new() };
     ($text:literal) => { format!($text) };
     ({ $($text:tt)* }) => { { $($text)* } };
 }
 
-/// A help, or the expression of an optional one.
+/// Expands to an optional help: none, a formatted literal, or the expression in `{ .. }`.
 macro_rules! help {
     () => { None };
     ($text:literal) => { Some(format!($text)) };
     ({ $($text:tt)* }) => { { $($text)* } };
 }
 
-/// A code's name, or the block that chooses among them.
+/// Expands to a code: the one of that name, or the result of the block in `{ .. }`.
 macro_rules! code {
     ({ $($code:tt)* }) => { { $($code)* } };
     ($code:ident) => { $crate::syntax::codes::$code };
 }
 
-/// Concepts, each with its problems.
+/// Defines an enum per concept, with a variant for each of its problems.
 macro_rules! problems {
     ($(
         $(#[$doc:meta])*
@@ -64,7 +64,7 @@ macro_rules! problems {
         }
 
         impl $concept {
-            /// How a scene's text is told of it.
+            /// Returns the problem in words, for the author of a scene's text.
             #[allow(unused_variables, clippy::useless_format)]
             pub fn words(&self) -> super::Words {
                 match self {
@@ -83,18 +83,18 @@ macro_rules! problems {
 
 macro_rules! what {
     ($($concept:ident)*) => {
-        /// What is wrong, by concept and with its arguments.
+        /// A problem by concept, with its arguments.
         #[derive(Clone, Debug, PartialEq)]
         pub enum What {
             $( $concept($concept), )*
             /// A problem of another file, at a place there.
             OfFile { what: Box<What>, place: String },
-            /// A problem where `auto` would do.
+            /// A problem with a value that may also be `auto`.
             OrAuto(Box<What>),
         }
 
         impl What {
-            /// How a scene's text is told of it.
+            /// Returns the problem in words, for the author of a scene's text.
             pub fn words(&self) -> Words {
                 match self {
                     $( Self::$concept(what) => what.words(), )*
@@ -138,7 +138,7 @@ what! {
     Expression Bsdf Sampling Circuit
 }
 
-/// What is wrong, and what to do, in one line.
+/// Writes the problem and the suggested fix in one line.
 impl fmt::Display for Words {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)?;
@@ -147,14 +147,14 @@ impl fmt::Display for Words {
     }
 }
 
-/// What is wrong, and what to do, in one line.
+/// Writes the problem and the suggested fix in one line.
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.words().fmt(f)
     }
 }
 
-/// Names of a scene's language, in their order.
+/// Names of the scene language, in order.
 type Names = &'static [&'static str];
 
 fn meant(name: &str, names: &[&'static str]) -> Option<String> {

@@ -1,9 +1,9 @@
-//! What can be wrong with materials, the camera and the geometry.
+//! Problems with materials, the camera and the geometry.
 
 use super::{listed, number, shorten};
 
 problems! {
-    /// Of materials' names, and of what they reflect.
+    /// Problems with the materials' names and reflectances.
     Material {
         GivenTwice { name: String } = DUPLICATE_NAME "the name `{name}` is given twice";
         Unknown { name: String, near: Option<String>, defined: Vec<String>, more: bool }
@@ -29,7 +29,7 @@ problems! {
             help "remove it, or give it to a primitive";
     }
 
-    /// Of lamps that light nothing.
+    /// Problems with lamps that light nothing.
     Unlit {
         NoLamp = BLACK "nothing emits: every picture of this scene is black"
             help "give a primitive an `emitter` material";
@@ -45,7 +45,7 @@ problems! {
             also "this lamp is seen from both sides";
     }
 
-    /// Of a scene as another renderer reads it.
+    /// Problems with a scene that another renderer is to read.
     Renderer {
         NoCounterpart { renderer: &'static str, name: String, kind: &'static str } = NO_COUNTERPART
             { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
@@ -55,7 +55,7 @@ problems! {
             }) };
     }
 
-    /// Of the camera.
+    /// Problems with the camera.
     Camera {
         NoView = CAMERA_TARGET "the camera looks at the point it stands on"
             label "same as `eye`" also "the camera stands here";
@@ -64,7 +64,7 @@ problems! {
             help "choose an `up` across the view, such as [0, 0, 1]";
     }
 
-    /// Of a primitive's shape.
+    /// Problems with a primitive's shape.
     Shape {
         Coincident { first: usize, second: usize } = COINCIDENT
             "vertices {first} and {second} are one point"
@@ -79,7 +79,7 @@ problems! {
             help "list the vertices in order around the outline";
     }
 
-    /// Of pieces of glass.
+    /// Problems with pieces of glass.
     Glass {
         Touches = GLASS_TOUCHES
             "faces of glass lie on each other: a ray crosses the two as one, and is refracted once"
@@ -87,7 +87,7 @@ problems! {
             help "leave a gap between the pieces, or let one reach into the other" also "the other face";
     }
 
-    /// Of a mesh as it is placed.
+    /// Problems with a mesh after its transform.
     Mesh {
         NoMaterial { triangles: Triangles } = OBJ_NO_MATERIAL { triangles.that("have no material") }
             help "give the mesh a `material`";
@@ -106,7 +106,8 @@ problems! {
     }
 }
 
-/// Some of a mesh's triangles, from the first of them, counted from 0.
+/// The number of faulty triangles, `some` of a mesh's `all`, and the index of the `first` of them,
+/// from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Triangles {
     pub some: usize,

@@ -1,10 +1,10 @@
-//! What can be wrong with a text: its file, its YAML, the overrides of the command line.
+//! Problems with a text: its file, its YAML, the overrides of the command line.
 
 use super::shorten;
 use crate::syntax::tree::Found;
 
 problems! {
-    /// Of a scene's file.
+    /// Problems with a scene's file.
     File {
         Folder = UNREADABLE "this is a folder" help "name a scene file";
         Irregular = UNREADABLE "this is not a regular file" help "name a scene file";
@@ -20,7 +20,7 @@ problems! {
             "the file is not UTF-8 text: byte {byte}, on line {line}" help "save it as UTF-8";
     }
 
-    /// Of a text as YAML.
+    /// Problems with a text as YAML.
     Yaml {
         Syntax { why: String } = SYNTAX "not YAML: {why}";
         TabIndents { why: String } = SYNTAX "not YAML: {why}"
@@ -56,7 +56,7 @@ problems! {
             help "a scene needs fewer than ten";
     }
 
-    /// Of an override of the command line.
+    /// Problems with an override of the command line.
     Override {
         NotAPair = SET_SYNTAX "an override is written key=value"
             help "write it as `--set sampling.path_bits=14`";

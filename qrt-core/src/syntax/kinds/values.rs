@@ -1,11 +1,11 @@
-//! What can be wrong with the structure of a scene, and with single values.
+//! Problems with the structure of a scene, and with single values.
 
 use super::{Names, listed, meant, nearest, number, shorten, without_article};
 use crate::syntax::tree::{Found, Kind, Scalar};
 use std::fmt;
 
 problems! {
-    /// Of a scene's structure: keys, and the kinds of their values.
+    /// Problems with a scene's structure: keys, and the kinds of their values.
     Structure {
         WrongType { expected: Expected, found: Found } = WRONG_TYPE
             "expected {expected}, found {found}"
@@ -36,7 +36,7 @@ problems! {
             help { meant(word, words).or_else(|| Some(format!("write {}", listed(words, "or")))) };
     }
 
-    /// Of a single value.
+    /// Problems with a single value.
     Datum {
         Unrepresentable { text: String, is_small: bool } = UNREPRESENTABLE
             { format!("{text} is too {} for 64 bits", if *is_small { "small" } else { "large" }) };
@@ -56,7 +56,7 @@ problems! {
     }
 }
 
-/// What stands where a value of another kind is expected.
+/// The kind of value that is expected at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expected {
     Number,
@@ -93,7 +93,7 @@ impl fmt::Display for Expected {
 }
 
 impl Expected {
-    /// The kind of value that it is.
+    /// Returns the expected kind of value in words.
     fn kind(&self) -> String {
         match self {
             Self::Number => "a number",
@@ -144,7 +144,7 @@ impl Expected {
     }
 }
 
-/// The numbers from a least to a greatest, which may themselves be left out.
+/// A range of numbers, of which each end may be excluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     pub low: f64,

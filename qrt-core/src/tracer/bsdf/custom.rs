@@ -1,4 +1,5 @@
-//! The user's own BSDF: a value and a map, by expressions that [`crate::valid::bsdf`] has checked.
+//! The user-defined BSDF: expressions for a value and a map, which [`crate::valid::bsdf`] has
+//! checked.
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
 use super::{Sample, Square, Way};
@@ -10,16 +11,16 @@ use crate::valid::CustomBsdf;
 use crate::valid::bsdf::weight_bound;
 use std::f64::consts::PI;
 
-/// One surface with a BSDF of the author's own, for one depth.
+/// One surface with a user-defined BSDF, for one depth.
 #[derive(Clone, Debug)]
 pub(super) struct CustomLobe<const C: usize> {
     /// `phi`, unless the depth's map replaces it.
     pub(super) direction: Option<Compiled>,
-    /// Of a direction that is sampled: the weights of the channels, and last the density per
-    /// steradian, if the author stated it.
+    /// For a sampled direction: the weights of the channels, and last the density per steradian, if
+    /// the user stated it.
     weight: Compiled,
-    /// Of any direction: by channel, `value cos_i` over the density that is last; or `pi value` of a
-    /// direction of the depth's map.
+    /// For any direction: `value cos_i` by channel, and last the density; or, if the depth's map
+    /// replaces the user's, `pi value`.
     towards: Compiled,
     states_density: bool,
     /// The greatest weight per channel.
@@ -27,7 +28,7 @@ pub(super) struct CustomLobe<const C: usize> {
     pub(super) asks_for_angles: bool,
 }
 
-/// Channels and a density, at most.
+/// The largest number of roots: the channels and a density.
 const ROOTS: usize = 4;
 
 impl<const C: usize> CustomLobe<C> {
@@ -37,7 +38,7 @@ impl<const C: usize> CustomLobe<C> {
             let mut sets = bsdf.value.iter().map(|value| value.variables(value.root()));
             sets.any(|set| variables.iter().any(|variable| set.contains(*variable)))
         };
-        // A value written in `u` and `v` has a meaning under its own map alone.
+        // A value in `u` and `v` is meaningful only under its own map.
         let replaced = square.map.replaces() && !asks(Variable::SQUARE);
         let (map, projected, bound) = if replaced {
             let (map, projected) = (&square.map.directions, &square.map.projected_jacobian);
@@ -86,7 +87,7 @@ impl<const C: usize> CustomLobe<C> {
         } else if self.states_density {
             cx.scale(values[C], PI)
         } else {
-            // Of the depth's map; where there is none either, nobody uses it.
+            // The density of the depth's map. It is not used if the lobe samples by its own map.
             sample.square.map.own_density(cx, &incoming)
         };
         Scattered {
@@ -96,12 +97,12 @@ impl<const C: usize> CustomLobe<C> {
         }
     }
 
-    /// Whether it tells how densely it samples directions.
+    /// True if the density of the sampled directions is known.
     pub(super) fn has_density(&self) -> bool {
         self.direction.is_none() || self.states_density
     }
 
-    /// The density of directions, as the author stated it.
+    /// The density of directions that the user stated, if any.
     #[inline(always)]
     pub(super) fn density<A: Arith>(
         &self,
@@ -115,7 +116,7 @@ impl<const C: usize> CustomLobe<C> {
         self.states_density.then_some(values[C])
     }
 
-    /// What of a lamp's light goes to the viewer.
+    /// The part of a lamp's light that goes to the viewer.
     #[inline(always)]
     pub(super) fn light<A: Arith>(&self, cx: &mut A, depth: usize, way: &Way<A>) -> [A::Real; C] {
         let angles = angles(cx, &way.outgoing, &way.incoming);
@@ -126,7 +127,7 @@ impl<const C: usize> CustomLobe<C> {
             return vector::scale(cx, &towards, factor);
         }
         let density = values[C];
-        // W F = value cos_i A c / (r^2 + p A c): never above the bound of the weight, whatever the
+        // W F = value cos_i A c / (r^2 + p A c). It never exceeds the bound of the weight, for any
         // density.
         let [area, cos, square] = way.lamp;
         let area = math!(cx, scale(area * cos, PI));

@@ -1,7 +1,7 @@
 //! Smooth glass: two delta lobes.
 //!
-//! `u` below the Fresnel reflectance reflects, with weight 1; else the ray is refracted and its
-//! radiance scaled by the squared ratio of the indices.
+//! If `u` is below the Fresnel reflectance, the ray is reflected with weight 1. Otherwise it is
+//! refracted and its radiance is scaled by the squared ratio of the indices.
 
 use super::vertex::Scattered;
 use super::{Sample, by_surface};
@@ -59,7 +59,7 @@ impl DielectricLobe {
         }
     }
 
-    /// The greatest weight of `surface`, going the way that makes radiance denser.
+    /// The greatest weight of `surface`: that of the refraction that makes radiance denser.
     pub(super) fn weight_bound(&self, surface: u32) -> f64 {
         let [_, ior] = self.refraction[surface as usize];
         (ior * ior).max(1.0 / (ior * ior))

@@ -1,4 +1,4 @@
-//! Emission: radiance from the front. What an emitter reflects is a Lambertian's, or nothing.
+//! Emission: radiance from the front. An emitter reflects as a Lambertian does, or not at all.
 
 use super::vertex::{Vertex, members};
 use crate::tracer::Arith;
@@ -6,7 +6,7 @@ use crate::tracer::vector;
 use crate::valid::Surface;
 use std::ops::Range;
 
-/// The surfaces that emit, which are neighbours.
+/// The surfaces that emit, which have consecutive numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Emitters<const C: usize> {
     surfaces: Range<u32>,
@@ -33,7 +33,7 @@ impl<const C: usize> Emitters<C> {
         &self.radiance
     }
 
-    /// Counts radiance in these units.
+    /// Converts radiance to `units`.
     pub(crate) fn in_units(&mut self, units: [f64; C]) {
         in_units(&mut self.radiance, units);
     }
@@ -44,8 +44,8 @@ impl<const C: usize> Emitters<C> {
         members(cx, at, &self.surfaces)
     }
 
-    /// What reaches the camera of what the `members` emit, of which `share` counts; 0 for other
-    /// paths.
+    /// The light of the `members` that reaches the camera, times `share` if there is one; 0 for
+    /// other paths.
     #[inline(always)]
     pub(crate) fn shade<A: Arith>(
         &self,
@@ -70,7 +70,7 @@ impl<const C: usize> Emitters<C> {
     }
 }
 
-/// Counts radiance in these units, where they are not 0.
+/// Converts radiance to `units`, except in channels whose unit is 0.
 pub(crate) fn in_units<const C: usize>(radiance: &mut [[f64; C]], units: [f64; C]) {
     for radiance in radiance {
         for (value, unit) in radiance.iter_mut().zip(units) {

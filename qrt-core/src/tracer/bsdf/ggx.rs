@@ -24,7 +24,7 @@ pub(super) struct GgxLobe {
     roughness: Vec<[f64; 1]>,
     /// The least roughness of these surfaces.
     least_alpha: f64,
-    /// Whether the lobe samples by its own map.
+    /// True if the lobe samples by its own map.
     pub(super) has_map: bool,
 }
 
@@ -75,7 +75,7 @@ impl GgxLobe {
         }
     }
 
-    /// The density of directions by the own map: `D(h) G1(o) / (4 cos_o)`, per steradian.
+    /// The density of directions by the lobe's own map: `D(h) G1(o) / (4 cos_o)`, per steradian.
     pub(super) fn density<A: Arith>(
         &self,
         cx: &mut A,
@@ -93,7 +93,7 @@ impl GgxLobe {
         math!(cx, select(0.0 < half[2], density, 0.0))
     }
 
-    /// What of a lamp's light goes to the viewer, of a white surface.
+    /// The part of a lamp's light that goes to the viewer, for a white surface.
     #[inline(always)]
     pub(super) fn light<A: Arith>(&self, cx: &mut A, surface: A::Index, way: &Way<A>) -> A::Real {
         let [alpha] = cx.rows(&self.roughness, surface);
@@ -121,7 +121,7 @@ impl GgxLobe {
         }
     }
 
-    /// The direction sampled by visible normals, and `G1` of it: 0 where it lies below the surface.
+    /// The direction sampled by visible normals, and its `G1`, which is 0 below the surface.
     #[inline(always)]
     fn visible_normal<A: Arith>(
         &self,
@@ -144,8 +144,8 @@ impl GgxLobe {
         let (x, y) = (math!(cx, radius * cos), math!(cx, radius * sin));
         let half = vector!(cx, [x, y, z] + warped);
         let (x, y) = (math!(cx, alpha * half[0]), math!(cx, alpha * half[1]));
-        // Where the cap's point is opposite to the viewer the half vector vanishes; that near to it,
-        // a coarse machine may leave it shorter than 1.
+        // If the cap's point is opposite to the viewer, the half vector vanishes. Near that point, a
+        // coarse machine may leave the normal shorter than 1.
         let normal = vector::normalize(cx, &[x, y, half[2]], 16.0 * longest);
         let incoming = vector!(cx, mirror(*outgoing, normal));
         let alpha_squared = math!(cx, alpha * alpha);

@@ -1,8 +1,8 @@
 //! Matte, on both sides: `f = albedo / pi`.
 //!
 //! Directions come from the depth's map, and the density is the map's. Under the cosine map
-//! `cos_i J = pi`, and the weight is the albedo, at most 1; under another it is at most as many
-//! times larger as the map's factor.
+//! `cos_i J = pi`, and the weight is the albedo, at most 1. Under another map it is at most the
+//! albedo times the map's greatest factor.
 
 use super::Sample;
 use super::vertex::{Scattered, to_scene};

@@ -1,5 +1,5 @@
-//! The map of a depth: where its sample square goes on surfaces that bring no map of their own, or
-//! whose own it replaces.
+//! The map of a depth, from its sample square to directions. Surfaces use it if they have no map of
+//! their own, or if it replaces theirs.
 
 use crate::expr::Expr;
 use crate::sampling::maps;
@@ -48,7 +48,7 @@ impl DepthMap {
         }
     }
 
-    /// Whether it replaces the maps that materials have of their own.
+    /// True if it replaces the maps that materials have of their own.
     pub(super) fn replaces(&self) -> bool {
         match self.map {
             Map::Auto => false,
@@ -64,7 +64,7 @@ impl DepthMap {
         }
     }
 
-    /// Whether [`Mapped::factor`] is always 1.
+    /// True if [`Mapped::factor`] is always 1.
     pub(super) fn is_projected(&self) -> bool {
         self.compiled.constant(3) == Some(1.0)
     }
@@ -85,7 +85,7 @@ impl DepthMap {
         }
     }
 
-    /// `pi / J` at `incoming`, which it was sampled at.
+    /// `pi / J` at `incoming`, a direction that the map sampled.
     #[inline(always)]
     pub(super) fn own_density<A: Arith>(&self, cx: &mut A, incoming: &Vector<A>) -> A::Real {
         match self.map {

@@ -1,10 +1,9 @@
 //! Scattering: from a hit to the next ray of the path and its weight `W = f(i, o) |n.i| J`.
 //!
-//! A material's lobe is a file here: its parameters' range, how it samples directions, their
-//! weights and their density, and the greatest weight, from which the colour scale is proven.
-//! Directions are in the local frame, whose z axis is the normal on the viewer's side. All
-//! directions of a depth are computed for the lobes that the scene has, and for no others; each
-//! path then selects its own.
+//! Each material's lobe has a file, with the range of its parameters, the sampling of directions, their weights
+//! and their density, and the greatest weight, from which the colour scale is proven. Directions are in the
+//! local frame, whose z axis is the normal on the viewer's side. For each depth, directions are computed for
+//! every lobe that the scene has, and for no others; each path then selects its own.
 
 mod custom;
 mod dielectric;
@@ -37,7 +36,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use vertex::{Scattered, local_outgoing};
 
-/// The lobe of a surface, or of neighbours that differ in tables alone, for one depth.
+/// The lobe of a surface, or of consecutive surfaces that differ only in tables, for one depth.
 #[derive(Clone, Debug)]
 enum Lobe<const C: usize> {
     Lambertian,
@@ -49,7 +48,7 @@ enum Lobe<const C: usize> {
 }
 
 impl<const C: usize> Lobe<C> {
-    /// Whether the lobe is of one surface, and has no tables by surface.
+    /// True if the lobe belongs to one surface, and has no tables by surface.
     fn is_of_one(&self) -> bool {
         match self {
             Self::Lambertian | Self::Mirror | Self::Dielectric(_) | Self::Ggx(_) => false,
@@ -57,7 +56,7 @@ impl<const C: usize> Lobe<C> {
         }
     }
 
-    /// Whether the lobe reads the viewer's direction in the local frame.
+    /// True if the lobe reads the viewer's direction in the local frame.
     fn asks_for_outgoing(&self) -> bool {
         match self {
             Self::Lambertian | Self::Mirror | Self::Dielectric(_) => false,
@@ -65,7 +64,7 @@ impl<const C: usize> Lobe<C> {
         }
     }
 
-    /// Whether the lobe takes directions from the depth's map ([`Sample::mapped`]).
+    /// True if the lobe takes directions from the depth's map ([`Sample::mapped`]).
     fn uses_map(&self) -> bool {
         match self {
             Self::Lambertian => true,
@@ -76,10 +75,10 @@ impl<const C: usize> Lobe<C> {
         }
     }
 
-    /// Whether the lobe reads the cosine of the arriving ray, which then must have unit length.
+    /// True if the lobe reads the cosine of the arriving ray, which then must have unit length.
     fn asks_for_angles(&self) -> bool {
         match self {
-            // A mirror keeps a direction's length for whoever asks next.
+            // A mirror keeps the length of a direction.
             Self::Lambertian | Self::Mirror => false,
             Self::Dielectric(_) | Self::Ggx(_) | Self::Phong(_) => true,
             Self::Custom(lobe) => lobe.asks_for_angles,
@@ -87,7 +86,7 @@ impl<const C: usize> Lobe<C> {
     }
 }
 
-/// Lobes in the order in which surfaces are sorted; black ones first.
+/// The rank of a lobe in the order in which surfaces are sorted; black is first.
 pub(crate) fn rank(scatter: &Scatter) -> u32 {
     match scatter {
         Scatter::Black => 0,
@@ -100,17 +99,17 @@ pub(crate) fn rank(scatter: &Scatter) -> u32 {
     }
 }
 
-/// Entries of tables that are stored for all lobes and depths of a stage: 256 MB.
+/// Most table entries that are stored for all lobes and depths of a stage: 256 MB.
 const MOST_STORED: usize = 1 << 25;
 
-/// How many tables a surface's lobe may have.
+/// The largest number of tables of a surface's lobe.
 fn tables(scatter: &Scatter) -> usize {
     match scatter {
         Scatter::Phong(_) => 3,
         Scatter::Custom(bsdf) => {
             let values = bsdf.map.iter().chain(&bsdf.value).chain(&bsdf.pdf);
             let all = values.chain([&bsdf.projected_jacobian]);
-            // Of a function of a coordinate, as of its operation with another.
+            // One table per three nodes: a coordinate, its function, and the operation with another.
             all.map(|value| value.nodes().len().div_ceil(3)).sum()
         }
         _ => 0,
@@ -134,7 +133,7 @@ fn tint(scatter: &Scatter) -> Rgb {
 struct Square {
     depth: usize,
     bits: [u32; 2],
-    /// Tables of more index bits are not stored.
+    /// Most index bits of a stored table.
     most_stored: u32,
     map: Arc<DepthMap>,
     /// Cosine and sine of `2 pi v`.
@@ -158,21 +157,21 @@ impl Square {
     }
 }
 
-/// What a path's lobe is given.
+/// The input of a path's lobe.
 struct Sample<'a, A: Arith, const C: usize> {
     at: &'a Vertex<A>,
     square: &'a Square,
     /// The direction by the depth's map; zeros unless a lobe uses it.
     mapped: Mapped<A::Real>,
-    /// The viewer's direction in the local frame; zeros unless a lobe asks for it.
+    /// The viewer's direction in the local frame; zeros unless a lobe reads it.
     outgoing: Vector<A>,
     /// The surface's [`tint`].
     tint: [A::Real; C],
-    /// Whether [`Scattered::density`] is asked for.
+    /// True if [`Scattered::density`] is requested.
     asks_for_density: bool,
 }
 
-/// What scatters towards one depth's ray, made ready.
+/// The scattering towards one depth's ray, prepared for the tracer.
 #[derive(Clone, Debug)]
 pub(crate) struct ScatterStage<const C: usize> {
     square: Square,
@@ -180,17 +179,17 @@ pub(crate) struct ScatterStage<const C: usize> {
     tint: Arc<[[f64; C]]>,
     /// The surfaces that scatter, with their lobes; depths with one square share them.
     lobes: Arc<[(Range<u32>, Lobe<C>)]>,
-    /// Whether any lobe uses the depth's map.
+    /// True if any lobe uses the depth's map.
     uses_map: bool,
-    /// Whether any lobe reads angles to the arriving ray.
+    /// True if any lobe reads angles to the arriving ray.
     pub(crate) asks_for_angles: bool,
-    /// How lamps are sampled at the vertices that the ray leaves, if they are.
+    /// The sampling of lamps at the vertices that the ray leaves, if there is any.
     pub(crate) lights: Option<LightStage<C>>,
 }
 
 impl<const C: usize> ScatterStage<C> {
-    /// `surfaces` are sorted by [`rank`]; the new ray is that of `depth`. Of other depths there are so many
-    /// `squares` of their own.
+    /// Prepares the scattering towards the ray of `depth`. `surfaces` are sorted by [`rank`]. `squares` is the
+    /// number of different sample squares of all depths.
     pub(crate) fn new(
         surfaces: &[&Surface],
         channels: [usize; C],
@@ -244,7 +243,7 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// The same for another depth whose square has as many bits and the same map, and that samples no lamps yet.
+    /// The same for another depth, whose square has the same bits and the same map. It samples no lamps yet.
     pub(crate) fn at_depth(&self, depth: usize) -> Self {
         let square = Square {
             depth,
@@ -257,9 +256,9 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// With lamps sampled at the vertices that the ray leaves.
+    /// Sets the sampling of lamps at the vertices that the ray leaves.
     pub(crate) fn sample_lights(&mut self, lights: Option<LightStage<C>>) {
-        // Cosines of a ray's ends are its direction's, which then must have unit length.
+        // The cosines at a ray's ends are read from its direction, which then must have unit length.
         self.lights = lights;
     }
 
@@ -278,8 +277,7 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// As [`ScatterStage::weight_bound`], of what a point on a lamp sends: all parts of a lobe may
-    /// see it.
+    /// As [`ScatterStage::weight_bound`], for light from a point on a lamp, which all parts of a lobe may see.
     pub(crate) fn light_weight_bound(&self, number: u32) -> [f64; C] {
         match self.lobe(number) {
             Some(Lobe::Phong(lobe)) => lobe.light_weight_bound(self.square.map.factor_bound()),
@@ -294,10 +292,10 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// How densely directions around `incoming` are sampled on surface `number`, per steradian:
-    /// over a part of the square that the map takes to directions one to one, `1 / J`, and the sum
-    /// over such parts. None for delta lobes, for maps that no formula inverts, and where nothing
-    /// scatters: light that is sampled otherwise cannot be weighed against those.
+    /// The density per steradian with which surface `number` samples directions around `incoming`. Over a part
+    /// of the square that the map takes to directions one to one it is `1 / J`; it is summed over these parts.
+    /// None for delta lobes, for maps that no formula inverts, and for surfaces that scatter nothing: light that
+    /// is sampled in another way cannot be weighted against these.
     pub(crate) fn density<A: Arith>(
         &self,
         cx: &mut A,
@@ -323,12 +321,12 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// Whether surface `number` scatters at all.
+    /// True if surface `number` scatters.
     pub(crate) fn scatters(&self, number: u32) -> bool {
         self.lobe(number).is_some()
     }
 
-    /// Whether surface `number` tells how densely it samples directions.
+    /// True if the density of the directions that surface `number` samples is known.
     pub(crate) fn samples_lights(&self, number: u32) -> bool {
         match self.lobe(number) {
             None | Some(Lobe::Mirror | Lobe::Dielectric(_)) => false,
@@ -337,19 +335,19 @@ impl<const C: usize> ScatterStage<C> {
         }
     }
 
-    /// Whether surface `number` is a Lambertian under the cosine map, whose weight is its albedo.
+    /// True if surface `number` is a Lambertian under the cosine map, whose weight is its albedo.
     pub(crate) fn is_projected(&self, number: u32) -> bool {
         self.square.map.is_projected() && matches!(self.lobe(number), Some(Lobe::Lambertian))
     }
 
-    /// Whether a lobe tells its density.
+    /// True if lobes have to compute their density.
     fn asks_for_densities(&self) -> bool {
         self.lights
             .as_ref()
             .is_some_and(LightStage::asks_for_densities)
     }
 
-    /// What of the light of a point on a lamp goes to the viewer, in the lamp's radiance.
+    /// The part of the light of a point on a lamp that goes to the viewer, in units of the lamp's radiance.
     #[inline(always)]
     pub(crate) fn light<A: Arith>(
         &self,
@@ -417,7 +415,7 @@ impl<const C: usize> ScatterStage<C> {
         Some(lobe)
     }
 
-    /// The next direction and weight of every path that scatters; anything for the others.
+    /// The next direction and weight of every path that scatters; arbitrary for the others.
     #[inline(always)]
     pub(crate) fn scatter<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
         let square = &self.square;
@@ -434,7 +432,7 @@ impl<const C: usize> ScatterStage<C> {
             asks_for_density: self.asks_for_densities(),
         };
         if self.uses_map {
-            // Asked for here, so that they belong to the ray and not to this part of it alone.
+            // Read here, so that the coordinates belong to the ray and not to this part of it alone.
             let _ = cx.coordinate(Coordinate::u(square.depth));
             let _ = cx.coordinate(Coordinate::v(square.depth));
             cx.enter(Part::Sample);
@@ -470,13 +468,13 @@ impl<const C: usize> ScatterStage<C> {
     }
 }
 
-/// What a lobe finds for the paths on its surfaces.
+/// The result of a lobe for the paths on its surfaces.
 trait OfLobe<A: Arith>: Sized {
-    /// This where `mask` holds, `other` where not.
+    /// Returns `self` where `mask` holds, `other` elsewhere.
     fn select(self, cx: &mut A, mask: A::Bool, other: Self) -> Self;
 }
 
-/// Replaces what was chosen by `new` where `mask` holds. The first candidate needs no choice.
+/// Replaces `chosen` by `new` where `mask` holds. The first candidate needs no selection.
 #[inline(always)]
 fn choose<A: Arith, T: OfLobe<A>>(cx: &mut A, chosen: &mut Option<T>, mask: A::Bool, new: T) {
     *chosen = Some(match chosen.take() {
@@ -496,7 +494,7 @@ impl<A: Arith, const C: usize> OfLobe<A> for Scattered<A, C> {
     }
 }
 
-/// What of a lamp's light goes to the viewer: weight times factor.
+/// The part of a lamp's light that goes to the viewer: weight times factor.
 pub(crate) struct Lit<A: Arith, const C: usize> {
     /// By channel.
     pub(crate) weight: [A::Real; C],
@@ -521,16 +519,17 @@ impl<A: Arith, const C: usize> OfLobe<A> for Lit<A, C> {
     }
 }
 
-/// The way to a point on a lamp, for lobes that ask for angles.
+/// The way to a point on a lamp, for lobes that read angles.
 struct Way<A: Arith> {
     /// The unit direction to the point, in the local frame.
     incoming: Vector<A>,
     /// The viewer's direction in the local frame.
     outgoing: Vector<A>,
-    /// Area over probability and pi, the cosine at the lamp, the distance's square.
+    /// Area over probability and pi, the cosine at the lamp, the square of the distance.
     lamp: [A::Real; 3],
-    /// By the depth's map: the weight of a white Lambertian, and the balance heuristic.
+    /// The weight of a white Lambertian, by the depth's map.
     mapped: A::Real,
+    /// The balance heuristic, by the depth's map.
     balance: A::Real,
 }
 
@@ -560,7 +559,7 @@ impl<A: Arith> Way<A> {
         }
     }
 
-    /// The balance heuristic of a lobe with this density per steradian.
+    /// The balance heuristic of a lobe with `density` per steradian.
     #[inline(always)]
     fn balance(&self, cx: &mut A, density: A::Real) -> A::Real {
         let density = cx.scale(density, PI);
@@ -568,7 +567,7 @@ impl<A: Arith> Way<A> {
     }
 }
 
-/// A table by surface: `value`, or `other` where that has none.
+/// A table by surface: its `value`, or `other` if it has none.
 fn by_surface<T: Copy>(
     surfaces: &[&Surface],
     other: T,

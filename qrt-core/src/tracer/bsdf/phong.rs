@@ -24,7 +24,7 @@ pub(super) struct PhongLobe<const C: usize> {
     diffuse: [f64; C],
     specular: [f64; C],
     exponent: f64,
-    /// Whether the lobe samples by its own map. One column cannot hold two parts.
+    /// True if the lobe samples by its own map. One column cannot hold two parts.
     pub(super) has_map: bool,
     /// p, the base's fraction of the columns.
     base_fraction: f64,
@@ -52,7 +52,8 @@ impl<const C: usize> PhongLobe<C> {
         } else if base == 0.0 {
             0
         } else {
-            // A fraction near 0 or 1 still leaves each part a column: without one it would vanish.
+            // Each part has at least one column, even if its fraction is near 0: without one it
+            // would vanish.
             let split = base / (base + lobe) * columns as f64;
             (split.round() as u64).clamp(1, columns - 1)
         };
@@ -89,7 +90,7 @@ impl<const C: usize> PhongLobe<C> {
         }
     }
 
-    /// `max(0, cos_a)^n`, of a cosine that is cut to 1: powers of what rounding adds would grow.
+    /// `max(0, cos_a)^n`, with the cosine clamped to 1: a power of a cosine above 1 would grow.
     #[inline(always)]
     fn power<A: Arith>(&self, cx: &mut A, cos_a: A::Real) -> A::Real {
         let cos = math!(cx, min(max(cos_a, 0.0), 1.0));
@@ -112,7 +113,7 @@ impl<const C: usize> PhongLobe<C> {
         value
     }
 
-    /// The direction by the own map, in the local frame, and its weight.
+    /// The direction by the lobe's own map, in the local frame, and its weight.
     #[inline(always)]
     fn divided<A: Arith>(
         &self,
@@ -145,7 +146,7 @@ impl<const C: usize> PhongLobe<C> {
         (direction, weight)
     }
 
-    /// The density of directions that the own map's base and lobe sample.
+    /// The densities with which the own map's base and lobe sample directions.
     pub(super) fn densities<A: Arith>(
         &self,
         cx: &mut A,
@@ -197,8 +198,8 @@ impl<const C: usize> PhongLobe<C> {
         }
     }
 
-    /// What of a lamp's light goes to the viewer. Each part of the own map is weighed by itself, as
-    /// its rays are.
+    /// The part of a lamp's light that goes to the viewer. Each part of the own map is weighted by
+    /// itself, as its rays are.
     #[inline(always)]
     pub(super) fn light<A: Arith>(&self, cx: &mut A, way: &Way<A>) -> [A::Real; C] {
         if !self.has_map {
@@ -219,7 +220,7 @@ impl<const C: usize> PhongLobe<C> {
         weight
     }
 
-    /// As [`Self::weight_bound`], of the light of a lamp, which both parts of the own map reflect.
+    /// As [`Self::weight_bound`], for the light of a lamp, which both parts of the own map reflect.
     pub(super) fn light_weight_bound(&self, factor: f64) -> [f64; C] {
         if !self.has_map {
             return self.weight_bound(factor);
@@ -227,8 +228,8 @@ impl<const C: usize> PhongLobe<C> {
         std::array::from_fn(|c| self.base_weight[c] + self.lobe_weight[c])
     }
 
-    /// The greatest weights: by the own map, the greater part's; under the depth's, `pi f` times
-    /// the map's factor.
+    /// The greatest weights. Under the own map, that of the greater part; under the depth's map,
+    /// `pi f` times the map's factor.
     pub(super) fn weight_bound(&self, factor: f64) -> [f64; C] {
         std::array::from_fn(|c| {
             if self.has_map {

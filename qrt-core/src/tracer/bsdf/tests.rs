@@ -1,8 +1,8 @@
-//! Scattering against its definition, `W = f |n.i| J`, one path at a time.
+//! Compares scattering with its definition, `W = f |n.i| J`, one path at a time.
 //!
-//! `f` is written down again here, in textbook form; `J = |di/du x di/dv|` comes from central
-//! differences of the direction that the tracer samples. Tables of an independent renderer and
-//! quadrature over the hemisphere judge the rest.
+//! Here `f` is in textbook form, and `J = |di/du x di/dv|` comes from central differences of the
+//! direction that the tracer samples. Tables of an independent renderer and quadrature over the
+//! hemisphere check the rest.
 
 mod density;
 mod lights;
@@ -15,7 +15,7 @@ use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
 use std::f64::consts::{PI, TAU};
 
-/// A surface of `material` on the plane z = 0, sampled with `bits` a coordinate through `map`.
+/// A surface of `material` on the plane z = 0, with `bits` bits per coordinate through `map`.
 struct Specimen {
     stage: Stage<3>,
     bits: u32,
@@ -148,13 +148,13 @@ const GGX: &str = "{ ggx: { alpha: 0.3, reflectance: [0.9, 0.7, 0.5] } }";
 const PHONG: &str =
     "{ phong: { diffuse: [0.3, 0.2, 0.1], specular: [0.5, 0.5, 0.5], exponent: 20 } }";
 const LOBE: &str = "{ phong: { diffuse: [0, 0, 0], specular: [0.5, 0.4, 0.3], exponent: 20.5 } }";
-/// Lunar dust, which shines back to where light comes from, on a map that prefers low heights.
+/// Lunar dust, which reflects light back to its source, with a map that prefers low heights.
 const MOON: &str = "{ bsdf: {
   map: ['sqrt(1-u^4)*cos(2*pi*v)', 'sqrt(1-u^4)*sin(2*pi*v)', 'u^2'],
   value: ['0.15/(0.1 + cos_i + cos_o) * (1 + 0.5*(2*cos_i*cos_o - cos_a))', '0.1', '0.2'] } }";
 
-/// That a material of each kind is tested, but for those that send light on in single directions,
-/// or not at all.
+/// Checks that a material of each kind is tested. Exceptions are those that scatter to single
+/// directions or not at all.
 fn assert_all_that_scatter<const N: usize>(materials: [&str; N]) {
     for name in Material::NAMES {
         let tested = materials
@@ -249,7 +249,8 @@ fn phong_divides_the_square_between_its_base_and_its_lobe() {
     }
 }
 
-/// What a viewer at `o` gets from all around, by the midpoint rule over heights and azimuths.
+/// The light that a viewer at `o` gets from radiance 1 all around. It uses the midpoint rule over
+/// heights and azimuths.
 fn reflected(textbook: Textbook, o: Direction) -> f64 {
     const N: usize = 800;
     let mut sum = 0.0;

@@ -1,10 +1,10 @@
-//! Where a path scatters, its local frame, and the choice among surfaces.
+//! The vertex at which a path scatters, its local frame, and the choice among surfaces.
 
 use crate::tracer::vector::{self, Vector};
 use crate::tracer::{Arith, Part};
 use std::ops::Range;
 
-/// Where a path stands when it scatters.
+/// The vertex at which a path scatters.
 pub(crate) struct Vertex<A: Arith> {
     /// The direction in which the path arrived.
     pub(crate) arriving: Vector<A>,
@@ -13,10 +13,10 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) normal: Vector<A>,
     /// The dot product of the arriving direction and the surface's normal.
     pub(crate) cos_theta: A::Real,
-    /// Whether the viewer sees the front of the surface.
+    /// True if the viewer sees the front of the surface.
     pub(crate) front: A::Bool,
     pub(crate) surface: A::Index,
-    /// The paths still wanted.
+    /// True for paths that have not ended.
     pub(crate) alive: A::Bool,
 }
 
@@ -33,12 +33,12 @@ impl<A: Arith> Vertex<A> {
 pub(crate) struct Scattered<A: Arith, const C: usize> {
     pub(crate) direction: Vector<A>,
     pub(crate) weight: [A::Real; C],
-    /// How densely the direction was sampled, in units of `1 / pi` per steradian, by the part of the
-    /// lobe that it is of; 0 where nobody asks.
+    /// The density with which its part of the lobe samples the direction. It is in units of `1 / pi`
+    /// per steradian, and 0 if it is not requested.
     pub(crate) density: A::Real,
 }
 
-/// The paths on a surface of this run, if there may be any.
+/// The paths on one of `surfaces`, if there may be any.
 #[inline(always)]
 pub(crate) fn members<A: Arith>(
     cx: &mut A,

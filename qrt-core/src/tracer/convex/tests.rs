@@ -1,11 +1,11 @@
-//! Which faces are found to bound a convex body.
+//! The faces that are found to bound a convex body.
 
 use super::*;
 use crate::valid::Polygon;
 
 const TOLERANCE: f64 = 1.0 / (1_u64 << 22) as f64;
 
-/// The bounds of the bodies among these polygons: how many have faces, and how many have none.
+/// For each body among these polygons, the number of bounds with faces, and of bounds without.
 fn found(outlines: &[Vec<[f64; 3]>]) -> Vec<[usize; 2]> {
     let polygon = |outline: &Vec<[f64; 3]>| {
         let mut vertices = [DVec3::ZERO; 4];

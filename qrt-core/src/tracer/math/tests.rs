@@ -1,5 +1,5 @@
-//! Formulas against Rust's own, over numbers whose every grouping gives another result, and the
-//! order of calls against the order of operands.
+//! Compares formulas with Rust's own, and the order of calls with the order of operands. Each
+//! grouping of the numbers gives a different result.
 
 use crate::tracer::Arith;
 use crate::tracer::scalar::Scalar;

@@ -1,4 +1,4 @@
-//! What a search asks about rays that start somewhere: outer planes, bodies, and the other planes.
+//! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
 use crate::polygons::SAME_PLANE;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
@@ -7,28 +7,28 @@ use crate::tracer::polygon::edge_test;
 use crate::tracer::ray::Start;
 use glam::DVec3;
 
-/// More pairs of an edge and an outer plane than this aren't compared: all edges are tested.
+/// Most pairs of an edge and an outer plane that are compared. Beyond this, all edges are tested.
 const MOST_COMPARED: usize = 1 << 24;
 
-/// What is asked about a ray, by where it starts.
+/// The tests for a ray, by the kind of its start.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Plan {
     pub(super) outer: Vec<Outer>,
-    /// Planes that are asked as [`Geometry`] asks them, and the places of their faces.
+    /// Planes that are tested as [`Geometry`] tests them, and the places of their faces.
     pub(super) planes: Vec<(usize, Vec<usize>)>,
     pub(super) bodies: Vec<Met>,
     /// Planes with emitting faces, and the places of these and of those that hide them.
     pub(super) emitting: Vec<(usize, Vec<usize>)>,
-    /// What else may stand before a lamp, as [`Geometry`] asks it: planes, and the places of their
-    /// faces.
+    /// The other planes that may hide a lamp, and the places of their faces. They are tested as
+    /// [`Geometry`] tests them.
     pub(super) before_lamps: Vec<(usize, Vec<usize>)>,
 }
 
 /// An outer plane, or two that face each other.
 #[derive(Debug, PartialEq)]
 pub(super) struct Outer {
-    /// The one that the ray meets where the slope towards it is above zero, the scene being below it;
-    /// and the one that it meets where the slope is below zero.
+    /// The plane that the ray meets if the slope towards it is above zero, with the scene below it; and
+    /// the plane that the ray meets if the slope is below zero.
     pub(super) sides: [Option<OuterSide>; 2],
 }
 
@@ -36,24 +36,24 @@ pub(super) struct Outer {
 pub(super) struct OuterSide {
     pub(super) plane: usize,
     pub(super) facet: Facet,
-    /// Whether rays may leave its faces outwards.
+    /// True if rays may leave its faces outwards.
     pub(super) outwards: bool,
 }
 
-/// The faces of one plane, of which the first that passes its tests is met. Where the last has no
-/// tests, no point that is asked about is beside all of them.
+/// The faces of one plane. A ray meets the first face that passes its tests. If the last face has no
+/// tests, every tested point is on one of the faces.
 #[derive(Debug, PartialEq)]
 pub(super) struct Facet {
     pub(super) axis: usize,
     pub(super) faces: Vec<(u32, Vec<EdgeTest>)>,
 }
 
-/// A convex body, and how rays may meet it.
+/// A convex body, and the ways in which rays may meet it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Met {
-    /// Whether rays may start inside, or come to be there.
+    /// True if rays may start inside, or get there.
     pub(super) from_inside: bool,
-    /// Whether a face emits, or may cover one of its plane that does.
+    /// True if a face emits, or may cover a face of its plane that emits.
     pub(super) at_lamps: bool,
     pub(super) bounds: Vec<MetBound>,
 }
@@ -65,28 +65,28 @@ pub(super) struct MetBound {
     pub(super) plane: Plane,
     pub(super) below: bool,
     pub(super) facet: Option<Facet>,
-    /// Whether rays may start outside.
+    /// True if rays may start outside.
     pub(super) entered: bool,
-    /// Whether the outer planes do not tell already where rays leave.
+    /// True if the outer planes do not already determine where rays leave.
     pub(super) left: bool,
-    /// Which rays start on the plane.
+    /// The rays that start on the plane.
     pub(super) starts: Starts,
-    /// Whether a ray may start on the plane, leave it outwards and yet come before other planes of the
-    /// body, where none starts outside.
+    /// True if a ray may start on the plane, leave it outwards and yet cross other planes of the body.
+    /// False if rays may start outside.
     pub(super) outwards: bool,
 }
 
-/// Which rays start on a plane.
+/// The rays that start on a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Starts {
     None,
     All,
-    /// Those that leave the faces on it.
+    /// The rays that leave the faces on it.
     Leaving,
 }
 
 impl Plan {
-    /// The bodies at which there are no lamps.
+    /// The bodies without lamps, with their numbers.
     pub(super) fn bodies_apart(&self) -> impl Iterator<Item = (usize, &Met)> {
         let bodies = self.bodies.iter().enumerate();
         bodies.filter(|(_, body)| !body.at_lamps)
@@ -94,18 +94,18 @@ impl Plan {
 }
 
 impl Facet {
-    /// What stands for its faces until the nearest hit is known.
+    /// The label that stands for all faces until the nearest hit is known.
     pub(super) fn first(&self) -> u32 {
         self.faces[0].0
     }
 
-    /// Whether that is all there is to know.
+    /// True if that label is the face: it has no tests.
     pub(super) fn is_plain(&self) -> bool {
         self.faces[0].1.is_empty()
     }
 
-    /// Faces in the order in which they hide each other, each with the edges that need tests. What comes
-    /// after a face without tests is never met.
+    /// Creates a facet of faces in the order in which they hide each other, with their edge tests. Faces
+    /// after a face without tests are never met.
     fn new(axis: usize, faces: impl Iterator<Item = (u32, Vec<EdgeTest>)>) -> Self {
         let mut facet = Self {
             axis,
@@ -125,13 +125,13 @@ impl Facet {
 pub(super) struct Planner<'a> {
     pub(super) geometry: &'a Geometry,
     pub(super) edges: &'a Edges,
-    /// Where the camera's rays start, or the corners of the area that they start from.
+    /// The points where the camera's rays start, or the corners of the area that they start from.
     pub(super) eyes: &'a [DVec3],
-    /// By face label: whether rays may go on beyond the face.
+    /// By face label: true if rays may go on beyond the face.
     pub(super) transmits: &'a [bool],
-    /// By face label.
+    /// By face label: its surface.
     pub(super) surface_of: &'a [u32],
-    /// An eye that is as near to a plane as this may be on either side, or on the plane.
+    /// An eye within this distance of a plane may be on either side, or on the plane.
     pub(super) ulp: f64,
 }
 
@@ -152,7 +152,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Whether some rays start on the side of a plane where `outside` is above zero.
+    /// True if some rays start on the side of a plane where `outside` is above zero.
     fn start_beyond(&self, start: Start, outside: impl Fn(DVec3) -> f64) -> bool {
         let margin = match start {
             Start::Camera => self.ulp,
@@ -161,8 +161,8 @@ impl Planner<'_> {
         self.starts(start).any(|point| outside(point) > margin)
     }
 
-    /// Whether rays may leave the faces on plane `number` to the side where `outside` is above zero, on
-    /// which the scene has nothing: to a viewer there, or through the faces.
+    /// True if rays may leave the faces on plane `number` to the side where `outside` is above zero. The
+    /// scene has nothing on that side: rays go to a viewer there, or through the faces.
     fn leave_outwards(&self, number: usize, outside: impl Fn(DVec3) -> f64) -> bool {
         let plane = self.geometry.planes.get(number);
         let mut faces = plane.into_iter().flat_map(|plane| plane.faces.clone());
@@ -181,7 +181,7 @@ impl Planner<'_> {
             }
             let entered = |bound: &Bound| self.start_beyond(start, |p| bound.outside(p));
             let entered: Vec<bool> = body.bounds.iter().map(entered).collect();
-            // The walls of a room are outer planes, and better off as these.
+            // The walls of a room are outer planes, and are better tested as outer planes.
             let is_outer =
                 |bound: &Bound| outer_sides.get(bound.number).is_some_and(Option::is_some);
             let walls = |bound: &Bound| is_outer(bound) || bound.faces.is_empty();
@@ -199,7 +199,7 @@ impl Planner<'_> {
             body.faces().for_each(|place| rest[place] = false);
             met.push((from_inside, body, entered));
         }
-        // Planes that have no face left are not asked.
+        // Planes that have no face left are not tested.
         for (number, side) in outer_sides.iter_mut().enumerate() {
             let mut faces = self.geometry.planes[number].faces.clone();
             if !faces.any(|place| rest[place]) {
@@ -242,7 +242,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The planes that have faces which are `wanted` (by place), with these.
+    /// The planes that have faces which are `wanted` (by place), and these faces.
     fn planes_with(&self, wanted: impl Fn(usize) -> bool) -> Vec<(usize, Vec<usize>)> {
         let planes = self.geometry.planes.iter().enumerate();
         let planes = planes.map(|(number, plane)| {
@@ -252,8 +252,8 @@ impl Planner<'_> {
         planes.filter(|(_, faces)| !faces.is_empty()).collect()
     }
 
-    /// By plane: whether the scene and all starts are below it (`Some(true)`) or above it
-    /// (`Some(false)`); none for planes that are not outer.
+    /// By plane: `Some(true)` if the scene and all starts are below it, `Some(false)` if they are above
+    /// it; none for planes that are not outer.
     fn outer_sides(&self, start: Start) -> Vec<Option<bool>> {
         let side = |plane: &Plane| {
             if !plane.outermost {
@@ -272,8 +272,8 @@ impl Planner<'_> {
             (start == Start::Surface || self.eyes.iter().all(inside)).then_some(below)
         };
         let mut sides: Vec<Option<bool>> = self.geometry.planes.iter().map(side).collect();
-        // The first that is crossed must be told from the others, or be like them; and from what is before
-        // it, as a lamp right below a ceiling.
+        // The first outer plane that is crossed must be distinguishable from the others, or have their
+        // surface; and from faces before it, such as a lamp right below a ceiling.
         let planes = || self.geometry.planes.iter().enumerate();
         let numbers: Vec<usize> = (0..sides.len()).filter(|&n| sides[n].is_some()).collect();
         if numbers.len().saturating_mul(sides.len()) <= MOST_COMPARED {
@@ -300,7 +300,7 @@ impl Planner<'_> {
         label.map(|label| self.surface_of[label as usize])
     }
 
-    /// Whether these faces (by place) are so near to a plane that circuits cannot tell them from it.
+    /// True if circuits cannot distinguish these faces (by place) from the plane: they are too near to it.
     fn lie_on(&self, plane: &Plane, faces: impl Iterator<Item = usize>) -> bool {
         let mut corners = faces.flat_map(|place| self.outline(place));
         corners.all(|&corner| height(plane, corner).abs() <= 4.0 * self.ulp)
@@ -351,7 +351,7 @@ impl Planner<'_> {
         outer
     }
 
-    /// Whether two faces of the edge's plane meet there, one on each side.
+    /// True if two faces of the edge's plane meet there, one on each side.
     fn meet(&self, edge: [u32; 2], plane: u32) -> bool {
         let on_plane =
             |place: &&usize| self.geometry.plane_of[self.label(**place) as usize] == plane;
@@ -362,15 +362,15 @@ impl Planner<'_> {
         }
     }
 
-    /// Faces of one plane (by place), with tests of those of their edges that are not `implied`.
+    /// The facet of `faces` (by place) of one plane, with tests of their edges that are not `implied`.
     fn facet(&self, axis: usize, faces: &[usize], implied: impl Fn([u32; 2]) -> bool) -> Facet {
         let tested = |&place: &usize| -> Vec<[u32; 2]> {
             let edges = self.edges.of(place);
             edges.filter(|&edge| !implied(edge)).collect()
         };
         let all: Vec<Vec<[u32; 2]>> = faces.iter().map(tested).collect();
-        // Where all edges but those at which two of these faces meet are implied, one of the faces is met
-        // wherever the plane is.
+        // If all edges are implied except those at which two of these faces meet, a ray that meets the
+        // plane meets one of the faces: the last one needs no test.
         let plane = faces.first().map_or(0, |&place| {
             self.geometry.plane_of[self.label(place) as usize]
         });
@@ -401,7 +401,7 @@ impl Planner<'_> {
         let faces = if reached { &*bound.faces } else { &[] };
         let plane = &bound.plane;
         let facet = (!faces.is_empty()).then(|| {
-            // All edges but those at which two of the faces meet are the body's.
+            // All edges except those at which two of the faces meet are the body's.
             let number = bound.number as u32;
             self.facet(plane.axis, faces, |edge| !self.meet(edge, number))
         });
@@ -433,8 +433,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Whether planes of the body cannot be told apart at a face, and should be: where their surfaces
-    /// differ, or rays come from inside.
+    /// True if planes of the body cannot be distinguished at a face, although they have to be: their
+    /// surfaces differ, or rays come from inside.
     fn is_blunt(&self, body: &Body, from_inside: bool) -> bool {
         let faces = |bound: &'_ Bound| bound.faces.clone().into_iter();
         let with_faces = || body.bounds.iter().filter(|bound| !bound.faces.is_empty());
@@ -447,7 +447,7 @@ impl Planner<'_> {
         })
     }
 
-    /// Whether a ray may start within the body, or come to be there.
+    /// True if a ray may start within the body, or get there.
     fn may_be_inside(&self, start: Start, body: &Body) -> bool {
         let eye_outside = body.bounds.iter().any(|bound| {
             let mut eyes = self.eyes.iter();
@@ -460,7 +460,7 @@ impl Planner<'_> {
         {
             return true;
         }
-        // Through a hole of its surface.
+        // Rays may enter through a hole of the body's surface.
         let open = |bound: &Bound| {
             let enters = |start| self.start_beyond(start, |point| bound.outside(point));
             bound.faces.is_empty() && (enters(Start::Camera) || enters(Start::Surface))

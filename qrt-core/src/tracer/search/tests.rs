@@ -1,4 +1,4 @@
-//! What circuits search for, against what [`Geometry`] finds by asking every plane: the same faces,
+//! Compares the searches of circuits with [`Geometry`], which tests every plane: the same faces,
 //! distances, sides, lamps and shadows along thousands of random paths.
 
 use super::*;
@@ -74,7 +74,7 @@ impl Shape {
         self
     }
 
-    /// Turned by an angle about the vertical.
+    /// Turns it by `angle` about the vertical.
     fn turned(self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         self.moved(|p| DVec3::new(cos * p.x + sin * p.z, p.y, cos * p.z - sin * p.x))
@@ -84,7 +84,7 @@ impl Shape {
         self.moved(|p| p + DVec3::new(x, y, z))
     }
 
-    /// Quads as two triangles each.
+    /// Cuts each quad into two triangles.
     fn triangulated(mut self) -> Self {
         let cut = |outline: Vec<DVec3>| match outline[..] {
             [a, b, c, d] => vec![vec![a, b, c], vec![a, c, d]],
@@ -95,7 +95,7 @@ impl Shape {
     }
 }
 
-/// A level square with y up, of this half side.
+/// A level square at height `y`, where y points up, with half side `half`.
 fn level(half: f64, y: f64) -> Shape {
     let (a, b) = (-half, half);
     shape(
@@ -109,7 +109,7 @@ fn cuboid(low: [f64; 3], high: [f64; 3]) -> Shape {
     shape(convex::tests::cuboid(low, high), "grey")
 }
 
-/// A side of [`cuboid`].
+/// The number of a side of [`cuboid`].
 const BOTTOM: usize = 2;
 const TOP: usize = 3;
 
@@ -235,14 +235,14 @@ fn camera_ray(stage: &Stage<3>, chance: &mut Chance) -> Ray<Scalar> {
     }
 }
 
-/// What was compared.
+/// Counts of compared rays, hits, lamps and shadows, and the differences.
 #[derive(Debug, Default)]
 struct Compared {
     rays: usize,
     hits: usize,
     lamps: usize,
     shadows: usize,
-    /// Where the two searches differ.
+    /// Descriptions of the differences between the two searches.
     differ: Vec<String>,
 }
 
@@ -254,7 +254,7 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// What both searches find on this ray; the face's label and the distance.
+    /// Compares the hits of both searches on `ray`. Returns the face's label and the distance.
     fn nearest(&mut self, ray: &Ray<Scalar>) -> Option<(u32, f64)> {
         let geometry = self.stage.geometry();
         let cx = &mut Scalar::default();
@@ -285,8 +285,8 @@ impl Comparison<'_> {
         }
     }
 
-    /// Whether something stands between the start of a surface's ray and some point of a lamp on the
-    /// side of `towards`.
+    /// Compares if something stands between the start of a surface's ray and a point of a lamp. Only
+    /// points on the side of `towards` are compared.
     fn shadow(&mut self, ray: &Ray<Scalar>, towards: DVec3) {
         let geometry = self.stage.geometry();
         let lamps = geometry.faces.iter().filter(|face| face.emits);
@@ -320,7 +320,7 @@ impl Comparison<'_> {
         self.compared.shadows += 1;
     }
 
-    /// Paths from the camera, each of a few rays in random directions.
+    /// Compares paths from the camera, each of a few rays in random directions.
     fn paths(&mut self, paths: usize) {
         for _ in 0..paths {
             let mut ray = camera_ray(self.stage, &mut self.chance);
@@ -390,7 +390,7 @@ fn searches_find_what_asking_every_plane_finds() {
         shadows += compared.shadows;
     }
     assert_eq!(wrong, "");
-    // So many that none of the three is compared in vain.
+    // Enough comparisons of each kind.
     assert!(
         [hits, lamps, shadows].iter().all(|&count| count > 1000),
         "{hits} hits, {lamps} lamps, {shadows} shadows"

@@ -26,9 +26,9 @@ impl Ord for Candidate {
     }
 }
 
-/// An upper bound of `e`, and of 0, over the whole domain: the part of the highest bound is halved
-/// again and again, until a value is known that is nearly as high or the allowed number of steps is
-/// used up.
+/// Returns an upper bound of `e`, and of 0, over the whole domain, by branch and bound. It halves
+/// the part with the highest bound until a known value is nearly as high, or the step limit is
+/// reached.
 pub(super) fn supremum(e: &Expr) -> f64 {
     const EFFORT: usize = 4096;
     const CLOSE: f64 = 1.0 + 1e-4;
@@ -92,7 +92,7 @@ pub(super) fn supremum(e: &Expr) -> f64 {
     least_bound * (1.0 + 1e-9)
 }
 
-/// Whether no proof is found that `e` is nowhere below zero.
+/// True if `e` is not proven to be nonnegative everywhere.
 pub(super) fn may_be_negative(e: &Expr) -> bool {
     supremum(&-e) > 0.0
 }

@@ -1,4 +1,4 @@
-//! That a map covers each direction that its material reflects to exactly once.
+//! Checks that a map covers each direction that its material reflects to exactly once.
 //!
 //! The light that a surface scatters is an integral over directions, and a path samples it as one
 //! over the square:
@@ -6,39 +6,43 @@
 //! `integral g(omega) |omega_z| domega = integral g(phi) |phi_z| J du dv`
 //!
 //! for every function `g`, if and only if phi covers directions once. Both sides are compared for
-//! the value times functions that are local in height and azimuth: their quotient tells how often
-//! the directions around a place are covered. Where the value is zero, nothing needs to be covered;
-//! and as `value |phi_z| J` is what a path weighs, no integrand is worse than a path's weight.
+//! the value times functions that are local in height and azimuth. Their quotient is the number of
+//! times that the directions around a place are covered. Where the value is zero, nothing needs to
+//! be covered. A path's weight is `value |phi_z| J`, so no integrand is harder to integrate than a
+//! path's weight.
 //!
-//! A value that depends on u or v is known where the map goes alone. If all channels are such, their
-//! map may leave directions out, which are black then; it covers none more than once.
+//! A value that depends on u or v is known only in directions that the map reaches. If all channels
+//! depend on u or v, their map may leave directions out, which are then black, but must cover none
+//! more than once.
 
 use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
-/// Heights, from the horizon to the pole, and azimuths of the places around which is compared.
+/// Number of heights, from the horizon to the pole, and of azimuths of the places around which both
+/// sides are compared.
 const HEIGHTS: usize = 16;
 const TURNS: usize = 12;
-/// Both sides of the surface.
+/// Number of places, on both sides of the surface.
 const PLACES: usize = 2 * (HEIGHTS + 1) * TURNS;
-/// By how much the whole may be off, of it, and by how much that around a place.
+/// Maximum relative deviation of the whole, and of the part around a place.
 const OFF_WHOLE: f64 = 5e-3;
 const OFF_PLACE: f64 = 0.1;
-/// A place with less of the whole is not looked at.
+/// Minimum share of the whole for a place to be checked.
 const LEAST: f64 = 1e-5;
-/// The part of a map, by its weight, that makes a side of the surface one that it goes to.
+/// Minimum share of a map's weight on a side of the surface for the map to count as reaching that
+/// side.
 const SIDE: f64 = 1e-4;
-/// Points per side of the square; more where fewer leave a doubt.
+/// Points per side of the square, by rule; a finer rule follows if a coarser leaves a doubt.
 const RULES: [u32; 4] = [96, 192, 384, 768];
-/// Heights at which the value is tabulated, from below to above.
+/// Number of heights at which the value is tabulated, from below to above.
 const ROWS: usize = 1024;
-/// Heights of its integrals.
+/// Number of heights in the integrals of the tabulated value.
 const STEPS: usize = 16 * ROWS;
 
-/// Checks that `map` covers what `values` reflect to, which are finite and not negative. Its `cells` are kept for other
-/// values.
+/// Checks that `map` covers the directions that `values` reflect to. The values are finite and not
+/// negative. `cells` caches the cells of the map for other values.
 pub(super) fn check(
     map: &[Expr; 3],
     projected_jacobian: &Expr,
@@ -57,7 +61,7 @@ pub(super) fn check(
     asked.find_map(|asked| compared(map, projected_jacobian, cells, &asked))
 }
 
-/// Checks the same by one function of directions.
+/// Checks the coverage for one integrand, `asked`.
 fn compared(
     map: &[Expr; 3],
     projected_jacobian: &Expr,
@@ -81,8 +85,8 @@ fn compared(
         if found.within(0.5) {
             return None;
         }
-        // What two finer rules do not change is the map's own. One may leave by chance what a narrow lobe is wrong
-        // by where few points go; the last does not.
+        // A deviation that two finer rules do not change is the map's own. A single finer rule may
+        // leave it unchanged by chance, if a narrow lobe gets few points; the last rule does not.
         let same = |coarse: &Covered| found.agrees(&coarse.deviation(asked, found.place));
         let is_last = points == RULES[RULES.len() - 1];
         let known = coarser.len().checked_sub(if is_last { 1 } else { 2 });
@@ -95,7 +99,7 @@ fn compared(
     None
 }
 
-/// How often a map covers what is around a place, and what the value reflects in all.
+/// The coverage of the directions around a place, and of all directions, as multiples of one.
 #[derive(Clone, Copy)]
 struct Deviation {
     place: usize,
@@ -104,7 +108,7 @@ struct Deviation {
 }
 
 impl Deviation {
-    /// Whether it is no more than this part of what is allowed.
+    /// True if both deviations are at most `part` of the allowed ones.
     fn within(&self, part: f64) -> bool {
         (self.whole - 1.0).abs() <= part * OFF_WHOLE && (self.times - 1.0).abs() <= part * OFF_PLACE
     }
@@ -143,7 +147,7 @@ fn direction(number: usize) -> [f64; 3] {
         number / ((HEIGHTS + 1) * TURNS),
         number / TURNS % (HEIGHTS + 1),
     );
-    // Of the outermost rings, the middle of their one half.
+    // The outermost rings are one half only: take its middle.
     let height = (ring as f64).clamp(0.5, HEIGHTS as f64 - 0.5) / HEIGHTS as f64;
     let azimuth = (number % TURNS) as f64 / TURNS as f64 * TAU;
     let radius = (1.0 - height * height).sqrt();
@@ -151,18 +155,19 @@ fn direction(number: usize) -> [f64; 3] {
     [radius * libm::cos(azimuth), radius * libm::sin(azimuth), z]
 }
 
-/// The function by which directions count, and its integrals.
+/// The integrand as a function of directions, and its integrals.
 struct Asked {
-    /// By height from -1 to 1; constant where the value depends on the square.
+    /// The integrand by height from -1 to 1; constant unless `everywhere`.
     rows: Vec<f64>,
-    /// Whether the value says where light is reflected to, whatever the map.
+    /// True if the values define where light is reflected to, independently of the map.
     everywhere: bool,
     /// Its integrals around the places.
     places: Vec<f64>,
 }
 
 impl Asked {
-    /// Of values that depend on directions alone; without any light among them, of all directions alike.
+    /// Creates the integrand of values that depend on directions alone. It is constant if none of
+    /// them reflects light.
     fn of(known: &[&Expr]) -> Self {
         let mut rows: Vec<f64> = (0..=ROWS)
             .map(|row| {
@@ -188,7 +193,7 @@ impl Asked {
                 all[ring] += part * light;
             }
         }
-        // Rings all around, whose azimuths share alike.
+        // The integrand does not depend on azimuth, so the places of a ring have equal integrals.
         for ring in all {
             asked.places.extend([ring; TURNS]);
         }
@@ -203,7 +208,7 @@ impl Asked {
     }
 }
 
-/// The value at height `z`, on the average over some viewers, one in the mirror direction.
+/// Returns the value at height `z`, averaged over some viewers, one in the mirror direction.
 fn mean(value: &Expr, z: f64) -> f64 {
     let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
     let mut room = Vec::new();
@@ -223,7 +228,7 @@ fn mean(value: &Expr, z: f64) -> f64 {
     sum / 18.0
 }
 
-/// The rings that a height belongs to, and by how much: 1 in all.
+/// Returns the two rings that `z` belongs to, each with its share; the shares sum to 1.
 fn rings(z: f64) -> [(usize, f64); 2] {
     let first = if z < 0.0 { HEIGHTS + 1 } else { 0 };
     let place = z.abs().min(1.0) * HEIGHTS as f64;
@@ -232,16 +237,16 @@ fn rings(z: f64) -> [(usize, f64); 2] {
     [(first + ring, 1.0 - part), (first + ring + 1, part)]
 }
 
-/// Where the map takes a cell of the square.
+/// The image of a cell of the square under the map.
 pub(super) struct Cell {
     z: f64,
     /// The azimuth, in [`TURNS`].
     turn: f64,
-    /// `|phi_z| J du dv`
+    /// The projected solid angle `|phi_z| J du dv`.
     area: f64,
 }
 
-/// The cells of a rule of so many points a side.
+/// Returns the cells of a rule of `points` points per side.
 fn cells_of(map: &[Expr; 3], projected_jacobian: &Expr, points: u32) -> Vec<Cell> {
     // Points are dense where maps have their poles.
     let tick = |i: u32| {
@@ -271,7 +276,7 @@ fn cells_of(map: &[Expr; 3], projected_jacobian: &Expr, points: u32) -> Vec<Cell
     cells
 }
 
-/// What a map covers.
+/// The coverage of a map, by place and by side.
 struct Covered {
     places: Vec<f64>,
     /// `|phi_z| J`, above and below.
@@ -296,8 +301,8 @@ impl Covered {
         Self { places, sides }
     }
 
-    /// How many of the places are to be covered: those of the sides that the map goes to, which one
-    /// of them must be the upper.
+    /// Number of places to be covered: those of the sides that the map reaches. `None` if it does
+    /// not reach the upper side.
     fn demanded(&self) -> Option<usize> {
         let all = self.sides[0] + self.sides[1];
         match self.sides.map(|side| side > SIDE * all) {
@@ -307,7 +312,8 @@ impl Covered {
         }
     }
 
-    /// The place where the map is most wrong; none if it goes below the surface alone.
+    /// Returns the deviation where the map is most wrong; `None` if it reaches only directions
+    /// below the surface.
     fn worst(&self, asked: &Asked) -> Option<Deviation> {
         let places = self.demanded()?;
         let whole: f64 = asked.places[..places].iter().sum();
@@ -315,11 +321,11 @@ impl Covered {
             let (covered, asks) = (self.places[place], asked.places[place]);
             asks > LEAST * whole && (asked.everywhere || covered > asks)
         };
-        // Of several that are as wrong, the one with the most light.
+        // Of several places that are equally wrong, take the one with the most light.
         let off = |place: usize| {
             let off = (self.places[place] - asked.places[place]).abs();
             let off = (off / asked.places[place]).min(1.0) + 1e-3 * off / whole;
-            // Rounding decides between none.
+            // Rounding errors must not decide between places, so round.
             (1e9 * off).round()
         };
         let place = (0..places).filter(counts);

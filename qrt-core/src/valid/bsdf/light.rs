@@ -1,25 +1,26 @@
-//! What a value must be: finite, not negative, and without gain of energy.
+//! Checks of a value: it must be finite, not negative, and without gain of energy.
 
 use super::shape::points;
 use crate::expr::{Expr, Variable, VariableSet, Variables};
 use crate::syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 
-/// Values of rounding's size below zero are zero; a constant's are not rounding.
+/// Minimum value below zero that counts as rounding. A constant has no rounding.
 const NEGATIVE: f64 = -1e-12;
-/// The energy that a BSDF may gain by the quadrature's error.
+/// Maximum gain of energy that counts as the quadrature's error.
 const GAIN: f64 = 2e-3;
 
 /// A direction towards the viewer, in a frame that is rotated about the surface's normal.
 #[derive(Clone, Copy)]
 struct Viewer {
     cos_o: f64,
-    /// The component of the viewer's direction along the surface, and where that points.
+    /// Length of the projection of the viewer's direction onto the surface; `towards` is its
+    /// direction.
     sin_o: f64,
     towards: [f64; 2],
 }
 
-/// Directions towards the viewer that make a difference to `f`.
+/// Returns the directions towards the viewer for which `f` may differ.
 fn viewers(f: &Expr) -> Vec<Viewer> {
     let set = f.variables(f.root());
     let oblique = set.contains(Variable::CosA);
@@ -48,7 +49,7 @@ fn viewers(f: &Expr) -> Vec<Viewer> {
         .collect()
 }
 
-/// What `f` depends on at a point of the square, seen by a viewer.
+/// Returns the variables of `f` at a point of the square, seen by a viewer.
 fn seen(at: Variables, direction: [f64; 3], viewer: Viewer) -> Variables {
     let [x, y, z] = direction;
     let along = x * viewer.towards[0] + y * viewer.towards[1];
@@ -61,7 +62,7 @@ fn seen(at: Variables, direction: [f64; 3], viewer: Viewer) -> Variables {
     }
 }
 
-/// Checks that the value is finite and not negative where the map's directions at [`points`] are these.
+/// Checks that `f` is finite and not negative at [`points`], for which the map has `directions`.
 pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Problem> {
     let viewers = viewers(f);
     let is_constant = f.constant().is_some();
@@ -89,10 +90,11 @@ pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Pr
     None
 }
 
-/// A part of `f` without a finite value that its own value hides, such as the quotient in
-/// `atan2(1/0, 1)`; `values` are those of its nodes at `at`.
+/// Returns a problem if a part of `f` is not finite while `f` is, such as the quotient in
+/// `atan2(1/0, 1)`. `values` are the values of its nodes at `at`.
 ///
-/// An infinity is a number to floating point, and none to a register: what is made of it differs.
+/// Floating point computes with an infinity, but a register cannot hold one, so results would
+/// differ.
 pub(super) fn undefined_part(f: &Expr, at: &Variables, values: &[f64]) -> Option<Bsdf> {
     let id = f.undefined_part(values)?;
     let part = f.part(id);
@@ -115,25 +117,26 @@ fn situation(f: &Expr, at: &Variables) -> Vec<(&'static str, f64)> {
     shown.iter().map(|v| (v.name(), at.get(v))).collect()
 }
 
-/// Sums over the square, as integrals over directions: midpoint rules of growing size, whose
-/// directions are worked out once.
+/// Integrals over directions, as sums over the square: midpoint rules of increasing size, whose
+/// samples are computed once.
 #[derive(Default)]
 pub(super) struct Quadrature {
     rules: [OnceCell<Vec<Sample>>; 4],
 }
 
-/// A map and its `J |phi_z|`, always those of the quadrature.
+/// A map and its `J |phi_z|`, the same for all calls of a quadrature.
 type Mapped<'a> = (&'a [Expr; 3], &'a Expr);
 
 struct Sample {
     at: Variables,
     direction: [f64; 3],
-    /// `|phi_z| J du dv`
+    /// The projected solid angle `|phi_z| J du dv`.
     area: f64,
 }
 
 impl Quadrature {
-    /// 48 x 48 samples for rule 0, and twice as many in both directions for each that follows.
+    /// Returns the samples of a rule: 48 x 48 for rule 0, doubled in both directions for each
+    /// further rule.
     fn rule(&self, (map, projected_jacobian): Mapped<'_>, rule: usize) -> &[Sample] {
         self.rules[rule].get_or_init(|| {
             let n = 48_u32 << rule;
@@ -161,7 +164,7 @@ impl Quadrature {
         })
     }
 
-    /// What leaves towards `viewer` of a uniform unit of light.
+    /// Returns the fraction of uniform incident light that leaves towards `viewer`.
     fn albedo(&self, of: Mapped<'_>, f: &Expr, viewer: Viewer, rule: usize) -> f64 {
         let mut room = Vec::new();
         let light = |s: &Sample| f.eval_in(&seen(s.at, s.direction, viewer), &mut room) * s.area;
@@ -175,7 +178,7 @@ impl Quadrature {
             if self.albedo(of, f, viewer, 0) <= 0.99 {
                 continue;
             }
-            // Near the limit, or so it seems: twice finer, until two agree.
+            // Near the limit, use finer rules until two agree.
             let (mut coarse, mut fine) =
                 (self.albedo(of, f, viewer, 1), self.albedo(of, f, viewer, 2));
             if (fine - coarse).abs() > GAIN {

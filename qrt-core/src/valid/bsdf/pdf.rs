@@ -1,4 +1,4 @@
-//! A stated density of directions, held against the map that samples them.
+//! Checks a stated density of directions against the map that samples them.
 
 use super::light::undefined_part;
 use super::shape::{points, solid_angle};
@@ -6,18 +6,18 @@ use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
 use std::f64::consts::TAU;
 
-/// The fraction by which a stated density may differ from the map's.
+/// Maximum relative deviation of a stated density from the map's.
 const OFF_DENSITY: f64 = 1e-6;
-/// By how much its integral over the hemisphere may pass 1: what the quadrature leaves of a density
+/// Maximum excess over 1 of its integral over the hemisphere: the quadrature's error for a density
 /// with a peak.
 const OFF_WHOLE: f64 = 1e-2;
-/// Points of the quadrature.
+/// Number of points of the quadrature, one per ring of directions.
 const RINGS: u32 = 4096;
-/// Angles of the viewer at which the density is tried: it is the map's, which knows of none.
+/// Cosines of viewers at which the density is tested: the map's density depends on no viewer.
 const VIEWERS: [f64; 3] = [1.0, 0.7, 0.2];
 
-/// Checks that `pdf` is one over the map's Jacobian, and that the map reaches all that it is the
-/// density of.
+/// Checks that `pdf` is one over the map's Jacobian, and that the map reaches all directions in
+/// which `pdf` has weight.
 pub(super) fn check(map: &[Expr; 3], values: &[Expr], pdf: &Expr) -> Option<Problem> {
     let path = Path::root().key("pdf");
     let squares = |value: &Expr| {
@@ -42,7 +42,7 @@ pub(super) fn check(map: &[Expr; 3], values: &[Expr], pdf: &Expr) -> Option<Prob
             let angles = Variables {
                 cos_i: z.abs(),
                 cos_o,
-                // The viewer at azimuth 0, mirrored.
+                // The mirror direction of a viewer at azimuth 0.
                 cos_a: z * cos_o - x * sin_o,
                 ..at
             };
@@ -74,7 +74,7 @@ pub(super) fn check(map: &[Expr; 3], values: &[Expr], pdf: &Expr) -> Option<Prob
         };
         return Some(Problem::new(path, what));
     }
-    // It depends on no azimuth and no viewer: a ring of directions for each height.
+    // The density depends on no azimuth and no viewer, so one point per height stands for its ring.
     let ring = |k: u32| {
         let cos_i = (f64::from(k) + 0.5) / f64::from(RINGS);
         let at = Variables {

@@ -1,13 +1,13 @@
-//! Whether a value is the same for light that goes the other way: `f(i, o) = f(o, i)`, as physics
-//! has it.
+//! Checks that a value is reciprocal: `f(i, o) = f(o, i)`, as physics requires.
 
 use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Path, Problem};
 
-/// The fraction by which the two may differ.
+/// Maximum relative difference of the two values.
 const OFF: f64 = 1e-6;
 
-/// What is not reciprocal about a value. One that depends on the square tells nothing.
+/// Returns the problem of a value that is not reciprocal. A value that depends on u or v is not
+/// checked.
 pub(super) fn check(f: &Expr, path: &Path) -> Option<Problem> {
     let asked = f.variables(f.root());
     if Variable::SQUARE.iter().any(|&axis| asked.contains(axis)) {

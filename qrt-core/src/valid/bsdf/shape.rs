@@ -1,4 +1,4 @@
-//! What a map and its Jacobian must be, tried at points of the square.
+//! Checks of a map and its Jacobian at points of the square.
 
 use super::light::undefined_part;
 use crate::expr::{Expr, Variable, Variables};
@@ -6,12 +6,12 @@ use crate::sampling::maps;
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
 use glam::DVec3;
 
-/// How far from length 1 a direction may be.
+/// Maximum deviation of a direction's length from 1.
 const OFF_SPHERE: f64 = 1e-9;
-/// The fraction by which a stated Jacobian may differ from the map's.
+/// Maximum relative deviation of a stated Jacobian from the map's.
 const OFF_JACOBIAN: f64 = 1e-6;
-/// A cross product, as a fraction of the lengths' product, that is rounding: the partial
-/// derivatives are parallel.
+/// Maximum length of a cross product, relative to the product of the lengths, that counts as
+/// rounding: the partial derivatives are parallel.
 const PARALLEL: f64 = 1e-10;
 
 const CENTRES: usize = 52;
@@ -53,8 +53,8 @@ impl Slopes {
     }
 }
 
-/// Checks that the map is finite, has finite partial derivatives, stays on the sphere and is no mere
-/// line.
+/// Checks that the map is finite, has finite partial derivatives, stays on the sphere and does not
+/// collapse to a line.
 pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
     let slopes = Slopes::of(map);
@@ -89,7 +89,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
         let area = along_u.cross(along_v).length();
         flat.push((area <= PARALLEL * along_u.length() * along_v.length(), at));
     }
-    // A line of flat points is harmless, an area is not: four cells that meet are one.
+    // A line of flat points is harmless, an area is not: four adjacent flat cells are an area.
     let side = flat.len().isqrt();
     let is_flat = |i: usize, j: usize| flat[i * side + j].0;
     for i in 1..CENTRES {
@@ -104,7 +104,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     None
 }
 
-/// The map's Jacobian by point of the square: the solid angle per unit of it.
+/// Returns the map's Jacobian as a function of the point: the solid angle per unit of the square.
 pub(super) fn solid_angle(map: &[Expr; 3]) -> impl Fn(&Variables) -> f64 {
     let slopes = Slopes::of(map);
     move |at| {

@@ -1,5 +1,5 @@
-//! What the checks promise: right BSDFs pass with the weights of closed forms, wrong ones are
-//! refused at their place with their reason.
+//! Tests of the checks: valid BSDFs pass with the weights of closed forms, wrong ones are refused
+//! at their place with their reason.
 
 mod parts;
 

@@ -101,7 +101,7 @@ fn rotations() -> impl Strategy<Value = DQuat> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
 
-    /// Against whole numbers, where the sign of every turn is exact.
+    /// Compares with whole numbers, for which the sign of every turn is exact.
     #[test]
     fn convexity_is_that_of_exact_arithmetic(
         grid in [[0i64..7, 0i64..7], [0i64..7, 0i64..7], [0i64..7, 0i64..7], [0i64..7, 0i64..7]],
@@ -138,7 +138,7 @@ proptest! {
         }
     }
 
-    /// Against quaternions.
+    /// Compares with quaternions.
     #[test]
     fn meshes_turn_about_x_then_y_then_z(
         degrees in [-720.0..720.0f64, -720.0..720.0, -720.0..720.0],

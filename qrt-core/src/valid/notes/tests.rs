@@ -3,7 +3,7 @@
 use crate::front::parse;
 use crate::syntax::Report;
 
-/// The warnings of a scene with these geometry entries and sampling, as codes and lines.
+/// Returns the warnings of a scene with these `geometry` entries and `rays`, as codes and lines.
 #[track_caller]
 fn warned(camera: &str, geometry: &[&str], rays: usize) -> Vec<(&'static str, usize)> {
     let entries: Vec<String> = geometry
@@ -30,7 +30,7 @@ sampling: {{ path_bits: 4, depths: [{rays}] }}
     told.filter(|(code, _)| *code != "QRT0220").collect()
 }
 
-/// From above, towards the floor.
+/// A camera that looks down at the floor.
 const ABOVE: &str = "{ perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }";
 const PARALLEL: &str = "{ orthographic: { eye: [0, 0, 5], target: [0, 0, 0], height: 2 } }";
 const FLOOR: &str =
@@ -68,7 +68,7 @@ fn lamps_that_shine_away_from_all_that_is_seen_are_told_of() {
         // Something that it lights may light the floor.
         let sky = square(20.0, false, "grey");
         assert_eq!(warned(camera, &[FLOOR, &away, &sky], 3), []);
-        // Two rays do not go that far, nor does one meet what lights the floor.
+        // Two rays do not go that far, and one ray does not reach the lamp that lights the floor.
         assert_eq!(warned(camera, &[FLOOR, &away, &sky], 2), [("QRT0221", 7)]);
         assert_eq!(
             warned(camera, &[FLOOR, &square(9.0, false, "lamp")], 1),
@@ -80,7 +80,7 @@ fn lamps_that_shine_away_from_all_that_is_seen_are_told_of() {
             warned(camera, &[FLOOR, &away, &ceiling], 3),
             [("QRT0221", 7)]
         );
-        // One that lights something is enough.
+        // One lamp that lights something is enough.
         let other = square(8.0, false, "lamp");
         assert_eq!(warned(camera, &[FLOOR, &away, &other], 3), []);
     }
@@ -106,7 +106,7 @@ fn lamps_in_one_place_that_face_opposite_ways_are_told_of() {
     }
 }
 
-/// Coordinates have rounding errors of their own size, and not more.
+/// Checks that coordinates have rounding errors in proportion to their size, and no larger.
 #[test]
 fn far_from_the_origin_nothing_is_told_that_is_not_so() {
     let corner = |far: f64, [x, y]: [f64; 2], z: f64| format!("[{}, {y}, {z}]", far + x);

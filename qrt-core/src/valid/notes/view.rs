@@ -1,4 +1,4 @@
-//! The camera's view as a convex region. Polygons in it count as seen, whatever hides them.
+//! The camera's view as a convex region. Polygons in it count as seen, even if others hide them.
 
 use crate::scene::{Basis, Camera, Film};
 use glam::{DVec2, DVec3};
@@ -55,7 +55,7 @@ impl View {
         } else {
             super::ROUNDING - normal.dot(self.basis.forward)
         };
-        // Not a number, if anything, proves nothing.
+        // NaN proves nothing, so the polygon may be seen.
         (towards.is_nan() || towards >= 0.0) && self.may_see(outline)
     }
 }

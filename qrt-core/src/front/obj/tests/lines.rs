@@ -57,7 +57,7 @@ fn what_continues_a_statement_is_looked_for_in_its_last_line() {
     }
 }
 
-/// Looking at all of a statement again for each of its lines would take minutes.
+/// Checks that a statement is not scanned again for each of its lines, which would take minutes.
 #[test]
 fn a_statement_of_half_a_million_lines_is_read() {
     let text = format!("g {}\n{SQUARE}f 1 2 3 4\n", "1 \\\n".repeat(1 << 19));

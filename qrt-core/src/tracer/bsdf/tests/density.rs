@@ -1,4 +1,4 @@
-//! Densities against quadrature, and against the Jacobians of the maps that they belong to.
+//! Compares densities with quadrature, and with the Jacobians of their maps.
 
 use super::*;
 
@@ -17,7 +17,7 @@ fn over_sphere(density: impl Fn(Direction) -> f64) -> f64 {
     sum * 4.0 * PI / (N * N / 2) as f64
 }
 
-/// Materials and maps whose density a formula tells.
+/// Materials and maps whose density has a formula.
 const DENSE: [(&str, &str); 8] = [
     (LAMBERTIAN, "auto"),
     (LAMBERTIAN, "uniform-hemisphere"),
@@ -37,8 +37,8 @@ fn every_density_integrates_to_one() {
         for (theta, phi) in VIEWERS {
             let o = at(theta, phi);
             let integral = over_sphere(|i| specimen.density(i, o).unwrap());
-            // Under a hemisphere's own map nothing lies below the surface; a lobe may reach there,
-            // where the weight is 0.
+            // A map to the hemisphere has no direction below the surface. A lobe may reach there;
+            // the weight is then 0.
             assert!(
                 (integral - 1.0).abs() < 5e-4,
                 "{material} {map} {theta}: {integral}"
@@ -64,7 +64,8 @@ fn every_density_is_one_over_the_jacobian_of_its_map() {
                     let cell = specimen.cell(u, v);
                     let (i, _) = specimen.scatter(o, cell);
                     let density = match phong {
-                        // Two maps, each of its part of the square. By energy, 0.6 of 2.1.
+                        // Two maps, one for each part of the square. By energy, the base has 0.6 of
+                        // 2.1.
                         Some(phong) => phong.densities(&mut Scalar::default(), &o, &i)
                             [usize::from(u > 0.6 / 2.1)],
                         None => specimen.density(i, o).unwrap(),

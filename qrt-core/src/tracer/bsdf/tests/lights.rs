@@ -1,5 +1,5 @@
-//! The two ways to find a lamp share its light: the weights of a point on it and of a ray that
-//! meets that point add up to 1, whatever the surface and wherever both are.
+//! Checks that the two ways to find a lamp share its light: the weights of a point on the lamp and
+//! of a ray that meets that point add up to 1, for every surface and all positions of both.
 
 use super::{Direction, Textbook, VIEWERS, assert_all_that_scatter, at, dot, matte, microfacets};
 use crate::front::parse;
@@ -27,7 +27,7 @@ sampling: {{ lights: {lights}, depths: [{{ bits: [0, 0] }}, {{ bits: [10, 10], l
     Stage::rgb(&loaded.valid, PixelClass::MayMeetLamp)
 }
 
-/// The surface's number: lamps come first, which reflect nothing.
+/// The surface's number. Lamps reflect nothing, so they come first.
 const SURFACE: u32 = 1;
 
 fn vertex(outgoing: Direction) -> Vertex<Scalar> {
@@ -57,7 +57,7 @@ fn ways() -> Vec<(Direction, f64, f64)> {
     ways
 }
 
-/// Such a way, to a lamp with this area over probability and pi.
+/// Converts a way of [`ways`], to a lamp with this `area` over probability and pi.
 fn towards((incoming, distance, cos): (Direction, f64, f64), area: f64) -> Towards<Scalar> {
     let (rise, fall) = (incoming[2] * distance, cos * distance);
     Towards {
@@ -70,8 +70,8 @@ fn towards((incoming, distance, cos): (Direction, f64, f64), area: f64) -> Towar
     }
 }
 
-/// Of a surface with this value and density of directions: what a point adds is its value times the
-/// share that a ray to it leaves.
+/// Checks that a point adds its value times the share that a ray to it leaves. `value` is that of
+/// the surface.
 fn shares(name: &str, stage: &Stage<3>, value: impl Fn(Direction, Direction) -> f64) {
     let scatter = &stage.scatters[0];
     let lights = scatter.lights.as_ref().unwrap();
@@ -135,7 +135,7 @@ fn a_point_and_the_ray_to_it_share_the_light_of_every_lobe() {
     }
 }
 
-/// Alone, a point has all of it, and rays that meet a lamp none.
+/// Without weighting, a point has all of the light, and rays that meet a lamp have none.
 #[test]
 fn next_event_estimation_counts_a_lamp_once() {
     let stage = stage(

@@ -1,4 +1,4 @@
-//! Values against tables of an independent renderer.
+//! Compares values with tables of an independent renderer.
 
 use super::*;
 

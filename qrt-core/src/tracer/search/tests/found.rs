@@ -1,8 +1,8 @@
-//! What a plan makes of a scene: which planes are outer, which bodies are met, and what is left.
+//! The plans of scenes: outer planes, bodies, and the remaining planes.
 
 use super::*;
 
-/// Of the rays that start there: outer planes, planes that are asked as before, and bodies.
+/// Numbers of outer planes, of planes tested one by one, and of bodies, for rays with this start.
 fn counts(stage: &Stage<3>, start: Start) -> [usize; 3] {
     counts_of(&Search::new(stage, ULP), start)
 }
@@ -42,7 +42,8 @@ fn the_cornell_box_is_a_room_with_two_bodies() {
     }
 }
 
-/// The lamp hangs half a unit of 560 below the ceiling: numbers of 8 fraction bits see one plane.
+/// The lamp hangs half a unit of 560 below the ceiling. Numbers of 8 fraction bits cannot
+/// distinguish the planes.
 #[test]
 fn a_ceiling_is_not_outer_where_numbers_cannot_tell_it_from_a_lamp_below() {
     let stage = staged(include_str!("../../../../../scenes-yaml/cornell-box.yaml"));
@@ -59,7 +60,7 @@ fn a_wall_whose_edges_are_corners_of_the_room_has_no_tests() {
     let stage = stage(&inside, &[closed, lamp(0.4, 2.9)]);
     let search = Search::new(&stage, ULP);
     for plan in [&search.camera, &search.surfaces] {
-        // Walls that face each other are asked together.
+        // Walls that face each other are tested together.
         assert_eq!(plan.outer.len(), 3);
         let sides = plan
             .outer
@@ -88,7 +89,7 @@ fn a_plane_is_outer_only_for_a_camera_on_its_inner_side() {
     let above = perspective([0.3, 6.0, -4.0], [0.0, 3.0, 0.0], 50.0);
     // The walls are then a body that is open at the front.
     assert_eq!(both(&above, shapes), [[0, 1, 1], [5, 1, 0]]);
-    // On the ceiling's plane, too, it may look out.
+    // A camera on the ceiling's plane may look out, too.
     let on_ceiling = perspective([0.3, 3.0, -1.0], [0.0, 3.1, 0.0], 50.0);
     assert_eq!(both(&on_ceiling, shapes)[0], [0, 1, 1]);
     // The corners of a parallel camera's film count: some are beyond the side walls.
@@ -125,7 +126,7 @@ fn a_lamp_in_the_ceiling_is_a_face_of_an_outer_plane() {
         assert_eq!(counts(&stage, Start::Surface), [5, 0, 0]);
         let search = Search::new(&stage, ULP);
         assert_eq!(search.surfaces.emitting.len(), 1);
-        // What is on that plane may cover the lamp, and nothing else stands between.
+        // Faces on that plane may cover the lamp, and nothing else stands between.
         assert_eq!(search.surfaces.before_lamps.len(), 1);
     }
 }
@@ -163,7 +164,7 @@ fn bodies_that_rays_may_be_in_are_met_where_they_leave() {
     assert_eq!(inside(&in_front, &[room, &[small()]]), [[false], [false]]);
     // A floor would cover the underside, which rays from inside meet.
     let hovering = small().at(0.0, 0.3, 0.0);
-    // Nothing is below the floor, from where rays might come through the hole.
+    // Rays through the hole would come from below the floor, where nothing is.
     assert_eq!(
         inside(&in_front, &[room, &[small().without(&[BOTTOM])]]),
         [[false], [false]]
@@ -179,7 +180,7 @@ fn bodies_that_rays_may_be_in_are_met_where_they_leave() {
         inside(&within, &[room, std::slice::from_ref(&hovering)]),
         [[true], [true]]
     );
-    // Rays start on the polygon within, if any come there.
+    // Rays start on the polygon inside, if any get there.
     let through = [hovering, level(0.5, 0.7)];
     assert_eq!(inside(&in_front, &[room, &through]), [[false], [true]]);
 }
@@ -207,7 +208,7 @@ fn a_box_that_emits_stands_before_lamps_as_faces() {
 
 #[test]
 fn nearly_equal_planes_are_told_apart_where_it_matters() {
-    // One triangle of the top is lower by less than a number of circuits tells.
+    // One triangle of the top is lower by less than circuits can distinguish.
     let mut dented = small().at(0.0, 0.3, 0.0).triangulated();
     let corner = dented.outlines[2 * TOP][1];
     for other in dented.outlines.iter_mut().flatten() {

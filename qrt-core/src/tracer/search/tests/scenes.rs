@@ -1,4 +1,4 @@
-//! Scenes in which searches are compared: each is there for something that went wrong, or could.
+//! Scenes in which searches are compared. Each is for an error that occurred, or could occur.
 
 use super::*;
 

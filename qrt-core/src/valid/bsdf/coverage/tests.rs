@@ -1,6 +1,6 @@
-//! Maps that are right and maps that are wrong, judged by areas on the sphere: the square is cut into
-//! cells, whose corners' directions span polygons, and what falls into a region is added up. That
-//! takes neither a derivative nor a value.
+//! Correct and wrong maps, judged by areas on the sphere: the square is cut into cells, whose
+//! corners' directions span polygons, and the area within each region is summed. This takes neither
+//! a derivative nor a value.
 
 use super::*;
 use crate::sampling::maps;
@@ -25,7 +25,7 @@ fn round([radius, height]: [&str; 2], angle: &str) -> Map {
     ]
 }
 
-/// A lobe about the normal whose slopes are stretched unlike.
+/// A lobe about the normal with different widths along and across.
 fn brushed(along: f64, across: f64) -> Map {
     let square = format!("(1-u+u*({along}^2*cos(2*pi*v)^2+{across}^2*sin(2*pi*v)^2))");
     [
@@ -35,7 +35,7 @@ fn brushed(along: f64, across: f64) -> Map {
     ]
 }
 
-/// What the whole front end says of such a material.
+/// Returns the codes of all problems with a BSDF of this map and value.
 fn codes(map: Map, value: &[&str]) -> Vec<&'static str> {
     let bsdf = crate::scene::Bsdf {
         map,
@@ -97,7 +97,7 @@ fn found(map: &Map, value: &str) -> Option<Bsdf> {
     }
 }
 
-/// How often the map covers each of 64 regions of one area, above, and as many below.
+/// Returns how often the map covers each of 64 regions of equal area above, and 64 below.
 fn areas(map: &Map) -> Vec<f64> {
     const ROWS: u32 = 1024;
     const COLUMNS: u32 = 256;
@@ -134,13 +134,13 @@ fn areas(map: &Map) -> Vec<f64> {
     covered
 }
 
-/// Whether all is covered once that must be: below, too, where the map goes there.
+/// True if all required regions are covered once; those below are required if the map reaches them.
 fn covers_once(map: &Map, areas: &[f64]) -> bool {
     let below = areas[64..].iter().sum::<f64>() > 1e-3;
     let demanded = if below { areas } else { &areas[..64] };
     let off = |&times: &f64| (times - 1.0_f64).abs();
     let most = demanded.iter().map(off).fold(0.0, f64::max);
-    // In between it would be the regions' edges that decide.
+    // Between these limits the regions' edges would decide.
     assert!(!(0.09..0.15).contains(&most), "{map:?}: {most}");
     most < 0.1
 }
@@ -215,7 +215,7 @@ fn thirty_five_right_maps_are_accepted() {
     }
     let sphere = round(["2*sqrt(u*(1-u))", "1-2*u"], "2*pi*v");
     right.push(sphere.clone());
-    // Some send so few points to the horizon that a value that does not fall there has no bound.
+    // Some maps send few points to the horizon: a value that does not fall there has no bound.
     for map in &right {
         assert_eq!(codes(map.clone(), &["0.1*cos_i^2"]), [""; 0], "{map:?}");
     }
@@ -252,7 +252,7 @@ fn nothing_need_be_covered_where_the_value_is_zero() {
     assert_eq!(found(&cap, "max(0, cos_i-0.5)"), None);
     let wide = found(&cap, "max(0, cos_i-0.3)").unwrap();
     assert!(matches!(wide, Bsdf::LeavesOut { .. }), "{wide:?}");
-    // A lobe so narrow that a map by it never comes to the horizon, in double precision.
+    // A lobe too narrow for its map to reach the horizon in double precision.
     let lobe = round(["sqrt(1-u^(2/2001))", "u^(1/2001)"], "2*pi*v");
     assert_eq!(found(&lobe, "0.9*2001/(2*pi)*cos_i^1999"), None);
     let half = with(&lobe, 'v', "0.5*v");
@@ -271,7 +271,8 @@ fn a_value_of_the_square_is_known_where_the_map_goes() {
     assert!(matches!(twice, Bsdf::CoversTwice { times, .. } if (times - 2.0).abs() < 0.01));
 }
 
-/// One channel that depends on the square excuses the others from nothing, nor they it.
+/// Checks channels one by one: a channel that depends on u or v does not exempt the others, and
+/// they do not exempt it.
 #[test]
 fn channels_are_looked_at_one_by_one() {
     let (half, twice) = (round(ROUND[0], "pi*v"), round(ROUND[0], "4*pi*v"));
@@ -295,7 +296,7 @@ fn a_stated_jacobian_excuses_nothing() {
         };
         let problems = crate::valid::bsdf::compile(&bsdf).unwrap_err();
         let codes: Vec<_> = problems.iter().map(Problem::code).collect();
-        // Not the energy, which the value does not gain.
+        // The energy is not reported: the value does not gain any.
         assert_eq!(codes, ["QRT0419"]);
     }
 }
