@@ -1,18 +1,20 @@
-//! What an interrupted render has finished, so that it can go on.
+//! A file of the finished tiles of an interrupted render, from which the render can continue.
 //!
-//! A checkpoint is a file that only grows: a header that says which render it belongs to, then one
-//! record for each finished tile, in the order they were finished. Header and records end in a CRC-32
-//! each. A write that was torn (the process killed, the disk full) leaves a last record that is short
-//! or fails its sum: it is dropped, and the file is cut back to the records that are whole.
+//! A checkpoint is an append-only file: a header that identifies the render, then one record for
+//! each finished tile, in the order in which they were finished. The header and each record end in
+//! a CRC-32. A torn write (the process was killed, or the disk is full) leaves a last record that
+//! is short or fails its checksum. That record is dropped, and the file is truncated after the last
+//! complete record.
 //!
-//! A pixel of very many paths takes long itself. So there are records of its parts, too: what the
-//! first paths of a part add up to. The last of a part's records counts, and none of a pixel that is
-//! finished. When those that no longer count are most of the file, it is written anew without them,
-//! beside it, and takes its name.
+//! A pixel with very many paths takes long by itself. Therefore there are also records of its
+//! parts: the sums over the first paths of a part. Of the records of one part, the last one is
+//! valid; a finished pixel has no valid part records. When most of the file is records that are no
+//! longer valid, qrt writes a new file without them beside it and renames it.
 //!
-//! The file is locked from its first byte until the picture is safe and the file is removed, so that
-//! two renders never write one checkpoint, and none removes another's. What is appended reaches the
-//! disk itself within a second or two: that much a power cut may take.
+//! The file is locked from its first byte until the picture is safe and the file is removed.
+//! Therefore two renders never write one checkpoint, and no render removes the checkpoint of
+//! another. An appended record reaches the disk within a second or two, so a power cut loses at
+//! most that much work.
 
 mod error;
 mod format;
@@ -31,25 +33,25 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Tiles that were finished in less may wait together to be made durable.
+/// Tiles that were finished within this time may wait, to be made durable together.
 pub(crate) const AT_STAKE: Duration = Duration::from_secs(1);
-/// Bytes of records that no longer count, before the file is written anew.
+/// Least number of bytes of records that are no longer valid for which the file is rewritten.
 const MOST_DEAD: u64 = if cfg!(test) { 1 << 12 } else { 1 << 24 };
 
-/// Which render a checkpoint belongs to: whatever decides a pixel's value.
+/// The render that a checkpoint belongs to: everything that decides a pixel's value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
     /// A hash of the scene and of every file it refers to.
     pub scene_hash: String,
-    /// What keys its shifts and draws.
+    /// Key of the render's shifts and draws.
     pub seed: u64,
     /// Names and values of everything else that decides a pixel: model, estimator, version.
     pub options: BTreeMap<String, String>,
-    /// The film, in pixels.
+    /// Width of the film, in pixels.
     pub width: u32,
-    /// The film, in pixels.
+    /// Height of the film, in pixels.
     pub height: u32,
-    /// x, y, width and height of the part that is rendered.
+    /// x, y, width and height of the rendered part of the film.
     pub crop: [u32; 4],
 }
 
@@ -68,24 +70,25 @@ pub struct Tile {
     pub pixels: Vec<[f64; 3]>,
     /// Oracle queries that each pixel used.
     pub queries: Vec<u64>,
-    /// Good indices of each pixel's channels; 0 where none are counted.
+    /// Good indices of each pixel's channels; 0 for a channel that is not counted.
     pub good: Vec<[u64; 3]>,
-    /// Width of the interval of each pixel's channels, in radiance; 0 where nothing is estimated.
+    /// Width of the interval of each pixel's channels, in radiance; 0 for a channel that is not
+    /// estimated.
     pub widths: Vec<[f64; 3]>,
-    /// Strata in which each pixel's channels were counted; 0 where nothing is.
+    /// Strata in which each pixel's channels were counted; 0 for a channel that is not counted.
     pub strata: Vec<[u8; 3]>,
 }
 
-/// What the first paths of a part of an unfinished pixel add up to.
+/// The sums over the first paths of a part of an unfinished pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Column and row on the film.
     pub pixel: [u32; 2],
-    /// Which part of the pixel's paths.
+    /// Number of the part among the parts of the pixel's paths.
     pub number: u64,
-    /// How many of the part's paths.
+    /// Number of the part's paths in the sums.
     pub paths: u64,
-    /// What they add up to; the render knows what each word means.
+    /// The sums; the render defines the meaning of each word.
     pub totals: Vec<u64>,
 }
 
@@ -93,13 +96,13 @@ pub struct Part {
 type Place = ([u32; 2], u64);
 
 impl Tile {
-    /// Whether it has a pixel.
+    /// Returns whether the tile contains a pixel.
     fn has(&self, [x, y]: [u32; 2]) -> bool {
         let within = |at: u32, first: u32, length: u32| at >= first && at - first < length;
         within(x, self.x, self.width) && within(y, self.y, self.height)
     }
 
-    /// A tile without pixels yet: its x, y, width and height on the film.
+    /// A tile without pixels yet, from its x, y, width and height on the film.
     pub(crate) fn of([x, y, width, height]: [u32; 4]) -> Self {
         Self {
             x,
@@ -142,29 +145,29 @@ pub struct Checkpoint {
     file: DiskFile,
     path: PathBuf,
     crop: [u32; 4],
-    /// The header, while the file still holds another render's tiles.
+    /// The header, while the file still holds the tiles of another render.
     waiting: Option<Vec<u8>>,
-    /// Where the header ends, and the last whole record.
+    /// End of the header, and end of the last complete record.
     start: u64,
     end: u64,
-    /// Where the records are that count.
+    /// Byte ranges of the valid records.
     tiles: Vec<Range<u64>>,
     parts: BTreeMap<Place, Range<u64>>,
-    /// Of parts, what they were when it was opened.
+    /// The parts that the file held when it was opened.
     found: Vec<Part>,
-    /// Whether a record that failed may stand behind it.
+    /// True if an incomplete record may follow the last complete one.
     torn: bool,
-    /// When all of it was last made durable.
+    /// Time of the last sync of the whole file.
     synced: Instant,
 }
 
 impl Checkpoint {
-    /// Starts a checkpoint without tiles. One that is there is replaced when the first tile is
-    /// appended, and not before: work that never begins costs no finished work.
+    /// Starts a checkpoint without tiles. An existing checkpoint is replaced when the first tile is
+    /// appended, and not before: work that never begins destroys no finished work.
     ///
     /// # Errors
-    /// If the file can't be written, another process has it open, or it is not a checkpoint: no
-    /// other file is overwritten, and no link followed.
+    /// If the file can't be written, another process has it open, or it is not a checkpoint. The
+    /// call overwrites no other file and follows no link.
     pub fn create(path: &Path, header: &Header) -> Result<Self, CheckpointError> {
         let mut checkpoint = Self::lock(path, header, true)?;
         let mut start = Vec::new();
@@ -180,7 +183,7 @@ impl Checkpoint {
         if start.is_empty() {
             let begun = checkpoint.restart(&header.encode());
             if begun.is_err() {
-                // It holds nothing.
+                // The file holds nothing.
                 let _ = checkpoint.remove_own();
             }
             begun?;
@@ -190,12 +193,12 @@ impl Checkpoint {
         Ok(checkpoint)
     }
 
-    /// Opens a checkpoint to go on from, and reads its finished tiles in the order they were
-    /// appended. Whatever follows the last whole record is cut off.
+    /// Opens a checkpoint to continue from it, and reads its finished tiles in the order in which
+    /// they were appended. Everything after the last complete record is cut off.
     ///
     /// # Errors
-    /// If there is none, it belongs to another render (the error says in what they differ), another
-    /// process has it open, or it is not a checkpoint.
+    /// If there is no checkpoint, it belongs to another render (the error lists the differences),
+    /// another process has it open, or the file is not a checkpoint.
     pub fn open(path: &Path, header: &Header) -> Result<(Self, Vec<Tile>), CheckpointError> {
         let mut checkpoint = Self::lock(path, header, false)?;
         let mut bytes = Vec::new();
@@ -203,7 +206,7 @@ impl Checkpoint {
         checkpoint.io(read)?;
         let expected = header.encode();
         if bytes.len() < expected.len() && expected.starts_with(&bytes) {
-            // Killed while it was created.
+            // The process was killed while it created the file.
             checkpoint.restart(&expected)?;
             return Ok((checkpoint, Vec::new()));
         }
@@ -231,7 +234,7 @@ impl Checkpoint {
                     checkpoint.parts.insert((part.pixel, part.number), range);
                     parts.insert((part.pixel, part.number), part);
                 }
-                // Of a finished part of a picture, which no checkpoint is.
+                // An ending belongs to a finished part of a picture, and a checkpoint is not one.
                 Record::Ending(_) => break,
             }
             checkpoint.end = end;
@@ -243,8 +246,8 @@ impl Checkpoint {
         Ok((checkpoint, tiles))
     }
 
-    /// Adds a finished tile. It is durable within a second, if another follows; [`Self::sync`] makes
-    /// it so at once.
+    /// Adds a finished tile. It is durable within a second, if another tile follows; [`Self::sync`]
+    /// makes it durable at once.
     ///
     /// # Errors
     /// If the tile does not lie in the crop or its vectors don't fill it, or if it can't be
@@ -278,11 +281,11 @@ impl Checkpoint {
         self.written()
     }
 
-    /// Adds what parts of unfinished pixels add up to, in place of what they did before. It is durable
-    /// as tiles are.
+    /// Adds the sums of parts of unfinished pixels, which replace earlier sums of the same parts.
+    /// They become durable as tiles do.
     ///
     /// # Errors
-    /// If a pixel does not lie in the crop, or if they can't be written.
+    /// If a pixel does not lie in the crop, or if the records can't be written.
     pub fn append_parts(&mut self, parts: &[Part]) -> Result<(), CheckpointError> {
         let mut records = Vec::new();
         let mut ends = Vec::new();
@@ -313,15 +316,16 @@ impl Checkpoint {
         self.written()
     }
 
-    /// What parts of unfinished pixels added up to when it was opened; nothing, once it was asked for.
+    /// Takes the parts of unfinished pixels that the file held when it was opened; empty at the
+    /// second call.
     pub fn take_parts(&mut self) -> Vec<Part> {
         std::mem::take(&mut self.found)
     }
 
-    /// Makes durable what was appended.
+    /// Makes the appended records durable.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn sync(&mut self) -> Result<(), CheckpointError> {
         let synced = self.file.sync();
         self.io(synced)?;
@@ -330,12 +334,12 @@ impl Checkpoint {
     }
 
     /// Closes the checkpoint of a render that ends without a picture, and returns whether it has
-    /// tiles to go on from. Then they are durable; without any, its file is removed, unless it is
-    /// another render's that was not replaced yet.
+    /// tiles to continue from. If it has, they are durable. If it has none, the file is removed,
+    /// unless it still holds the tiles of another render.
     ///
     /// # Errors
-    /// What the file system says; [`CheckpointError::Lost`] if the file with the tiles was replaced. One
-    /// that was removed, perhaps with its folder, is made again.
+    /// Errors of the file system; [`CheckpointError::Lost`] if the file with the tiles was
+    /// replaced. A file that was removed, perhaps with its folder, is written again.
     pub fn close(mut self) -> Result<bool, CheckpointError> {
         if self.waiting.is_some() {
             return Ok(false);
@@ -358,7 +362,8 @@ impl Checkpoint {
         }
     }
 
-    /// Writes what the file holds, whose name is gone, under that name; not over another file.
+    /// Writes the contents of the open file, whose name was removed, under that name again. Returns
+    /// false, and writes nothing, if the name belongs to another file.
     fn make_again(&mut self) -> io::Result<bool> {
         if self.path.exists() {
             return Ok(false);
@@ -370,18 +375,18 @@ impl Checkpoint {
         Ok(true)
     }
 
-    /// Removes the checkpoint, whose tiles are safe elsewhere. A file that has got its name meanwhile
-    /// stays.
+    /// Removes the checkpoint, whose tiles are safe elsewhere. If another file has taken its name,
+    /// that file stays.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn remove(self) -> Result<(), CheckpointError> {
         let removed = self.remove_own();
         self.io(removed)
     }
 
     fn remove_own(&self) -> io::Result<()> {
-        // It is locked: nobody else who keeps to locks can put another in its place.
+        // The file is locked, so no process that respects locks can replace it after this check.
         if self.file.has_its_name()? {
             disk::remove(&self.path)?;
         }
@@ -392,7 +397,7 @@ impl Checkpoint {
         let path = path.to_path_buf();
         match disk::open_locked(&path, create) {
             Ok(Some(file)) => {
-                // Of one that was killed while it wrote the checkpoint anew.
+                // The partial file of a process that was killed while it rewrote the checkpoint.
                 remove_abandoned(&path);
                 Ok(Self {
                     file,
@@ -416,7 +421,7 @@ impl Checkpoint {
         }
     }
 
-    /// Makes it a checkpoint of nothing but a header.
+    /// Truncates the file to a header without records.
     fn restart(&mut self, header: &[u8]) -> Result<(), CheckpointError> {
         let done = (self.file.set_len(0))
             .and_then(|()| self.file.rewind())
@@ -431,13 +436,13 @@ impl Checkpoint {
         self.io(done)
     }
 
-    /// A tile takes the place of its pixels' parts.
+    /// Counts the record of a tile. It invalidates the part records of the tile's pixels.
     fn count_tile(&mut self, tile: &Tile, range: Range<u64>) {
         self.tiles.push(range);
         self.parts.retain(|(pixel, _), _| !tile.has(*pixel));
     }
 
-    /// Writes records behind the last whole one, and says where.
+    /// Writes records after the last complete one, and returns the offset of the first.
     fn write(&mut self, records: &[u8]) -> Result<u64, CheckpointError> {
         if let Some(header) = self.waiting.clone() {
             self.restart(&header)?;
@@ -449,7 +454,8 @@ impl Checkpoint {
         Ok(from)
     }
 
-    /// After records were written.
+    /// Completes a write: rewrites the file if most of it is invalid, and syncs it when that is
+    /// due.
     fn written(&mut self) -> Result<(), CheckpointError> {
         let rewritten = self.rewrite_if_dead();
         self.io(rewritten)?;
@@ -459,7 +465,7 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// Writes the file anew without records that no longer count, if these are most of it.
+    /// Rewrites the file without the records that are no longer valid, if they are most of it.
     fn rewrite_if_dead(&mut self) -> io::Result<()> {
         let mut counting: Vec<&mut Range<u64>> = self
             .tiles
@@ -468,7 +474,7 @@ impl Checkpoint {
             .collect();
         let lengths = counting.iter().map(|range| range.end - range.start);
         let live: u64 = self.start + lengths.sum::<u64>();
-        // A file that lost its name takes no other's.
+        // A file that lost its name must not replace another file under that name.
         if self.end - live < live.max(MOST_DEAD) || !self.file.has_its_name()? {
             return Ok(());
         }
@@ -502,14 +508,14 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// One write, so that a kill between two of them tears nothing.
+    /// Writes a record with a single call, so that a kill between two calls tears nothing.
     fn write_record(&mut self, record: &[u8]) -> io::Result<()> {
         if self.torn {
             self.cut_back()?;
         }
         self.torn = true;
         if let Err(error) = self.file.write_all(record) {
-            // When the disk is full, no torn record stands before those that may follow.
+            // When the disk is full, no torn record may stand before later records.
             let _ = self.cut_back();
             return Err(error);
         }
@@ -518,7 +524,7 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// Cuts off what follows the last whole record.
+    /// Cuts off everything after the last complete record.
     fn cut_back(&mut self) -> io::Result<()> {
         self.file.set_len(self.end)?;
         self.file.seek(SeekFrom::Start(self.end))?;

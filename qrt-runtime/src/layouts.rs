@@ -1,4 +1,4 @@
-//! Qubits against gates: what a scene's circuit costs under every strategy.
+//! Qubits against gates: the cost of a scene's circuit under every strategy.
 
 use crate::workers::{Progress, ThreadsError, Workers};
 use qrt_core::compile::Strategy;
@@ -8,7 +8,7 @@ use qrt_core::valid::ValidScene;
 use qrt_drawing::{Axis, Canvas, Drawn, Plot, Series};
 use rayon::prelude::*;
 
-/// Why there are no layouts.
+/// Reason for which there are no layouts.
 #[derive(Debug, thiserror::Error)]
 pub enum LayoutsError {
     /// The scene has no circuit.
@@ -22,11 +22,12 @@ pub enum LayoutsError {
     Cancelled,
 }
 
-/// The layouts of a channel's oracle, for pixels of `class`, that no other beats in qubits and in
-/// Toffolis, the one with the fewest Toffolis first: of [`Strategy::all`], each compiled.
+/// Returns the Pareto front of layouts in qubits and Toffolis, for a channel's oracle for pixels of
+/// `class`. The layout with the fewest Toffolis is first. Each strategy of [`Strategy::all`] is
+/// compiled.
 ///
 /// # Errors
-/// A scene without a circuit, threads that can't be started, and cancellation.
+/// If the scene has no circuit, threads can't be started, or the work is cancelled.
 pub fn front(
     scene: &ValidScene,
     channel: usize,
@@ -52,7 +53,8 @@ pub fn front(
     Ok(Layout::front(layouts?))
 }
 
-/// The front as a drawing: qubits to the right, Toffolis upwards, and ANDs if measurements undo them.
+/// Draws the front: qubits to the right and Toffolis upwards. A second series has the ANDs that
+/// remain if measurements undo them.
 pub fn drawing(front: &[Layout], scene: &str) -> Canvas {
     let points = |of: fn(&Layout) -> u64| {
         let places = front.iter();

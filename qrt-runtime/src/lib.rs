@@ -26,6 +26,6 @@ pub mod trade;
 pub mod verify;
 pub mod workers;
 
-/// Names this build: a hash of the sources that decide a picture's bits. Within a version, what one
-/// build has left is not gone on with by another.
+/// Name of this build: a hash of the sources that decide a picture's bits. A build does not
+/// continue the unfinished work of another build, even of the same version.
 pub(crate) const BUILD: &str = env!("QRT_BUILD");

@@ -1,14 +1,14 @@
-//! How much memory this process has needed, and how much it may take: work that would take more is
-//! refused before it begins.
+//! Peak memory of this process and its memory budget. Work that would exceed the budget is refused
+//! before it begins.
 
 mod allowance;
 
 pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError};
 pub(crate) use allowance::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
 
-/// The most memory that was resident at any time since the process began, in bytes: Linux's
-/// `VmHWM`, right to within the few pages per core that the kernel has not yet counted. `None` on
-/// systems that don't tell it without foreign calls.
+/// Returns the peak resident memory since the process began, in bytes. It is Linux's `VmHWM`,
+/// correct to within the few pages per core that the kernel has not yet counted. `None` on systems
+/// that report it only through foreign calls.
 ///
 /// ```
 /// if let Some(bytes) = qrt_runtime::memory::peak_resident_bytes() {
@@ -38,8 +38,9 @@ fn kilobytes(text: &str, name: &str) -> Option<u64> {
         .checked_mul(1024)
 }
 
-/// The memory that this process may take, in bytes: the least of the machine's, of its control group's, and
-/// of the limit on its address space. `None` on systems that don't tell it without foreign calls.
+/// Returns the memory that this process may use, in bytes: the least of the machine's memory, the
+/// limit of its control group, and the limit on its address space. `None` on systems that report
+/// these only through foreign calls.
 pub fn allowed_bytes() -> Option<u64> {
     if cfg!(not(target_os = "linux")) {
         return None;
@@ -87,7 +88,8 @@ mod tests {
         }
         let touched = vec![1u8; 64 << 20];
         assert!(std::hint::black_box(&touched).iter().all(|&b| b == 1));
-        // The kernel sums its counters only now and then, so an eighth is left to it.
+        // The kernel sums its counters only now and then, so the test allows an eighth to be
+        // missing.
         assert!(peak_resident_bytes().unwrap() >= 56 << 20);
         drop(touched);
         assert!(peak_resident_bytes().unwrap() >= 56 << 20);

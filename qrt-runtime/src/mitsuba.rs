@@ -1,9 +1,10 @@
-//! A scene as Mitsuba 3 reads it, so that a renderer that nobody here wrote can check qrt.
+//! Export of a scene to Mitsuba 3, so that an independent renderer can check qrt.
 //!
-//! Mitsuba's `path` integrator, told to stop at the same depth and never by chance, has the picture of
-//! qrt's scene as its expected value. What has to be said for that, because Mitsuba's own habits are
-//! others: every face is flat; surfaces but dielectrics act on both sides; outside of glass there is
-//! vacuum, not air; a pixel is the mean of its square; the field of view is vertical.
+//! The picture of qrt's scene is the expected value of Mitsuba's `path` integrator, if the
+//! integrator stops at the same depth and never by chance. The export states explicitly what
+//! Mitsuba does differently by default: every face is flat; surfaces other than dielectrics act on
+//! both sides; outside of glass there is vacuum, not air; a pixel is the mean over its square; the
+//! field of view is vertical.
 //!
 //! <https://mitsuba.readthedocs.io/en/stable/src/generated/plugins_bsdfs.html> and the pages beside it.
 //!
@@ -34,28 +35,28 @@ use qrt_drawing::escaped;
 use std::collections::HashMap;
 use std::fmt::{self, Write};
 
-/// Paths of a pixel unless more are asked for, by `-D spp=N` of the command `mitsuba`.
+/// Default number of paths of a pixel; `-D spp=N` of the command `mitsuba` overrides it.
 const SAMPLES: u32 = 256;
-/// The depth from which on Mitsuba may end a path by chance: beyond all that there are.
+/// Depth from which Mitsuba may end a path by chance: greater than the depth of any path.
 const NEVER: u32 = 1 << 20;
-/// How near to the eye Mitsuba begins to see, of the distance to the farthest point.
+/// Distance of Mitsuba's near clipping plane, as a fraction of the distance to the farthest point.
 const NEAR: f64 = 1e-6;
 
-/// A scene in Mitsuba's words.
+/// A scene in Mitsuba's format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
     /// The scene file: XML.
     pub text: String,
-    /// The files that it names, to be written into its folder.
+    /// The mesh files that the scene file refers to, to be written into its folder.
     pub meshes: Vec<MeshFile>,
 }
 
 /// The faces of a material, as a binary PLY file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshFile {
-    /// Its name, without a folder.
+    /// Name of the file, without a folder.
     pub file: String,
-    /// What stands in it.
+    /// Contents of the file.
     pub bytes: Vec<u8>,
 }
 
@@ -63,7 +64,7 @@ pub struct MeshFile {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("Mitsuba has no counterpart of the {kind} material `{name}`")]
 pub struct NoCounterpart {
-    /// What the material is called in the scene.
+    /// Name of the material in the scene.
     pub name: String,
     /// `phong` or `bsdf`.
     pub kind: &'static str,
@@ -82,11 +83,12 @@ impl NoCounterpart {
     }
 }
 
-/// Writes a scene for Mitsuba 3, version 3.0 or later, in a variant of linear RGB such as `scalar_rgb`
-/// or `llvm_ad_rgb`. The files of meshes are called `STEM.N.MATERIAL.ply`.
+/// Writes a scene for Mitsuba 3, version 3.0 or later, for a variant in linear RGB, for example
+/// `scalar_rgb` or `llvm_ad_rgb`. The mesh files are called `STEM.N.MATERIAL.ply`.
 ///
 /// # Errors
-/// A face has a material that Mitsuba lacks: a `phong` that shines, or a `bsdf` of one's own.
+/// If a face has a material that Mitsuba lacks: a `phong` with a specular part, or a user-defined
+/// `bsdf`.
 pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
     let depth = scene.scene().sampling.depths.len();
     let mut text = format!(
@@ -113,7 +115,8 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     }
     let used = scene.surfaces().iter().zip(&faces_of).enumerate();
     for (index, (surface, faces)) in used.filter(|(_, (_, faces))| !faces.is_empty()) {
-        // Mitsuba samples the points of a rectangle as evenly as its samplers' numbers are.
+        // Mitsuba samples the points of a rectangle as evenly as its sampler's numbers are
+        // distributed.
         let is_lamp = |face: &&&Polygon| surface.emits() && is_parallelogram(face);
         let (lamps, faces): (Vec<_>, Vec<_>) = faces.iter().partition(is_lamp);
         let material = material(surface)?;
@@ -143,7 +146,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     Ok(Exported { text, meshes })
 }
 
-/// A name that any file may have.
+/// Returns a name that is valid as a file name on every system.
 fn plain(name: &str) -> String {
     let plain = |c: char| {
         if c.is_ascii_alphanumeric() || c == '-' {
@@ -176,7 +179,7 @@ fn sensor(scene: &ValidScene) -> String {
             ("perspective", view, String::new())
         }
         Camera::Orthographic(camera) => {
-            // Mitsuba's film reaches from -1 to 1 across.
+            // Mitsuba's film spans -1 to 1 in width.
             let half = 0.5 * camera.height * f64::from(width) / f64::from(height);
             let scale = format!("            <scale x=\"{0}\" y=\"{0}\"/>\n", Number(half));
             ("orthographic", String::new(), scale)
@@ -209,13 +212,14 @@ fn sensor(scene: &ValidScene) -> String {
     )
 }
 
-/// Whether a face is a parallelogram, up to rounding.
+/// Returns whether a face is a parallelogram, up to rounding.
 fn is_parallelogram(face: &Polygon) -> bool {
     let [v0, v1, v2, v3] = face.vertices;
     face.corners == 4 && (v0 + v2 - v1 - v3).length() <= 1e-9 * (v2 - v0).length()
 }
 
-/// What takes the square from -1 to 1, whose normal is z, to a parallelogram: a matrix, by rows.
+/// Returns the matrix, by rows, that maps the square from -1 to 1, whose normal is z, to a
+/// parallelogram.
 fn square_to(face: &Polygon) -> String {
     let [v0, v1, _, v3] = face.vertices;
     let (x, y) = (0.5 * (v1 - v0), 0.5 * (v3 - v0));
@@ -228,7 +232,7 @@ fn square_to(face: &Polygon) -> String {
     format!("{} 0 0 0 1", rows.join(" "))
 }
 
-/// What faces are made of, and the end of their shape.
+/// Returns the XML of a surface's material and emitter, and the end tag of the shape.
 fn material(surface: &Surface) -> Result<String, NoCounterpart> {
     let colour =
         |name: &str, value: Rgb| format!(r#"<rgb name="{name}" value="{}"/>"#, triple(value));
@@ -282,7 +286,7 @@ fn triple(value: [f64; 3]) -> String {
     format!("{x}, {y}, {z}")
 }
 
-/// A number with all its digits, and no more zeros than one reads.
+/// A number with all its digits: in scientific notation where many zeros would be needed otherwise.
 struct Number(f64);
 
 impl fmt::Display for Number {
@@ -295,7 +299,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// Triangles that share vertices where these are equal. A quad is split along v0 - v2.
+/// Writes a binary PLY file of triangles. Equal vertices are shared. A quad is split along v0 - v2.
 fn ply(faces: &[&Polygon]) -> Vec<u8> {
     let mut vertices: Vec<DVec3> = Vec::new();
     let mut numbers = HashMap::new();

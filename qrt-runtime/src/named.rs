@@ -1,6 +1,7 @@
 //! Enumerations whose values have names: on command lines, in files and in pictures' metadata.
 
-/// An enumeration, [`ALL`](crate::render::Model::ALL) its values and their names.
+/// Defines an enumeration; [`ALL`](crate::render::Model::ALL) lists its values, and each value has
+/// a name.
 macro_rules! named {
     (
         $(#[$about:meta])*
@@ -18,7 +19,7 @@ macro_rules! named {
             /// All values, in the order of their definition.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$Value),+];
 
-            /// The name by which it is written.
+            /// The name of the value in text.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$Value => $name,)+

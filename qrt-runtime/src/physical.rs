@@ -1,20 +1,21 @@
-//! What estimators of physical resources take of a picture: the logical counts of all that a device
-//! runs for a call of the oracle, for a channel of a pixel, for a pixel and for a film.
+//! Logical counts that estimators of physical resources take as input: the counts of all that a
+//! device runs for a call of the oracle, for a channel of a pixel, for a pixel and for a film.
 //!
-//! They are those of gates. An oracle's are counted by [`lower::tally`]. What counting puts around it
-//! (O_0, the controls of phase flips, the phase register's window and inverse Fourier transform) is
-//! handed over gate by gate by [`Counting`], around a stand-in for the oracle: one phase flip on an
-//! index of as many qubits.
+//! The counts are those of gates. [`lower::tally`] counts an oracle. The gates that counting adds
+//! around the oracle (O_0, the controls of phase flips, the phase register's window and inverse
+//! Fourier transform) come from [`Counting`], which emits them gate by gate around a stand-in for
+//! the oracle: one phase flip on an index of the same number of qubits.
 //!
-//! What is assumed:
+//! Assumptions:
 //!
-//! * An estimator with a phase register runs the whole circuit B times, T - 1 queries each. One
-//!   without runs as many iterates as were planned, or else at most (T - 1) B, without a control, and
-//!   measures the index at most as often: a shot takes a query at least. Strata fix qubits of the index, which saves some of O_0
-//!   and is not reckoned with.
-//! * All channels of all pixels are counted, one after another on the same qubits, but those whose
-//!   proven bound is black. The oracle of all pixels is that of one class of pixels, such as the
-//!   most expensive.
+//! * An estimator with a phase register runs the whole circuit B times, with T - 1 queries each. An
+//!   estimator without one runs the planned number of iterates, or else at most (T - 1) B, without
+//!   a control. It measures the index at most that number of times, because a shot takes at least
+//!   one query. Strata fix qubits of the index. This saves part of O_0, and the counts ignore the
+//!   saving.
+//! * All channels of all pixels are counted one after another on the same qubits, except those
+//!   whose proven bound is black. The oracle of all pixels is the oracle of one class of pixels,
+//!   for example the most expensive.
 
 use crate::estimators::{EstimatorError, Settings};
 use qrt_circuit::lower::{self, Cost};
@@ -24,7 +25,7 @@ use qrt_core::scene::Estimator;
 use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 
-/// Why a picture has no logical counts.
+/// Reason for which a picture has no logical counts.
 #[derive(Debug, thiserror::Error)]
 pub enum PhysicalError {
     /// The scene has no circuit.
@@ -49,12 +50,12 @@ pub enum PhysicalError {
     TooMany,
 }
 
-/// The counts of one computation, each kind for itself.
+/// The counts of one computation: once with unitary uncomputation, once with measurements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// As qrt's circuits are: everything is undone by gates.
+    /// The counts of qrt's own circuits, where gates undo everything.
     pub unitary: LogicalCounts,
-    /// ANDs into clean qubits are undone by measurement.
+    /// The counts if measurements undo the ANDs into clean qubits.
     pub measured: LogicalCounts,
 }
 
@@ -63,10 +64,10 @@ pub struct Counts {
 pub struct ChannelCounts {
     /// One call of O_f.
     pub oracle: Counts,
-    /// All that estimates the channel in a pixel.
+    /// All that a device runs to estimate the channel in a pixel.
     pub pixel: Counts,
-    /// Queries: as planned, or else as many as may be used; 0 of a channel that is black in every
-    /// pixel.
+    /// Queries: the planned number, or else the number that the estimator may use at most. 0 for a
+    /// channel that is black in every pixel.
     pub queries: u64,
 }
 
@@ -81,22 +82,23 @@ pub struct PictureCounts {
     pub film: Counts,
     /// Queries of a pixel, all channels together.
     pub queries: u64,
-    /// How many pixels the film has.
+    /// Number of pixels of the film.
     pub pixels: u64,
 }
 
 impl PictureCounts {
-    /// The counts of a scene's picture, by the scene's estimator, with the oracles for pixels of `class`
-    /// in every pixel.
+    /// Counts of a scene's picture under the scene's estimator. The oracles for pixels of `class`
+    /// stand for the oracles of every pixel.
     ///
-    /// Estimators that stop by themselves use fewer queries than they may: `planned` says how many, of
-    /// a pixel on average, of red, green and blue ([`Figures::channel_queries`]). They are rounded
-    /// up. Those of an estimator with a phase register are fixed, and are not read.
+    /// An estimator that stops by itself uses fewer queries than it may. For it, `planned` gives
+    /// the queries of a pixel on average, for red, green and blue ([`Figures::channel_queries`]);
+    /// they are rounded up. An estimator with a phase register has a fixed number of queries and
+    /// ignores `planned`.
     ///
     /// [`Figures::channel_queries`]: crate::plan::Figures::channel_queries
     ///
     /// # Errors
-    /// A scene without a circuit, an estimator that runs no iterates, and counts beyond u64.
+    /// If the scene has no circuit, the estimator runs no iterates, or a count exceeds u64.
     pub fn of(
         scene: &ValidScene,
         class: PixelClass,
@@ -133,7 +135,8 @@ impl Counts {
         })
     }
 
-    /// `counts`, of whose Toffolis so many pairs may be an AND and a measurement.
+    /// Pairs `counts` with the counts in which `pairs` pairs of Toffolis are each an AND and a
+    /// measurement.
     fn paired(counts: LogicalCounts, pairs: u64) -> Self {
         Self {
             unitary: counts,
@@ -153,11 +156,11 @@ impl Counts {
     }
 }
 
-/// What a device runs for a channel of a pixel.
+/// All that a device runs for a channel of a pixel.
 struct Run<'a> {
     scene: &'a ValidScene,
     oracle: Counts,
-    /// The index: path and comparator.
+    /// Qubits of the index: path and comparator.
     index: u32,
     black: bool,
 }
@@ -231,7 +234,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The circuit of counting, so many times.
+    /// Counts of the circuit of counting, run `repetitions` times.
     fn with_register(&self, around: &Counting<'_>, repetitions: u64) -> Option<Counts> {
         let begin = LogicalCounts::of(|mut sink| around.prepare(&mut sink));
         let query = LogicalCounts::of(|mut sink| around.query(0, &mut sink));
@@ -246,7 +249,8 @@ impl<'a> Run<'a> {
         self.on(around, around.qubits() - around.iterate().qubits(), run)
     }
 
-    /// So many iterates in shots of any length; after each the index is measured.
+    /// Counts of `queries` iterates in shots of any length. Each iterate counts a measurement of
+    /// the index.
     fn without_register(&self, around: &Counting<'_>, queries: u64) -> Option<Counts> {
         let query = LogicalCounts::of(|mut sink| around.iterate().apply(None, &mut sink));
         let query = LogicalCounts {
@@ -256,12 +260,14 @@ impl<'a> Run<'a> {
         self.on(around, 0, self.query(query)?.times(queries)?)
     }
 
-    /// A call of the oracle, and what is `around` it: Toffolis into O_0's ancillas, and their inverse.
+    /// Counts of a call of the oracle and of the gates `around` it: Toffolis into O_0's ancillas,
+    /// and their inverse.
     fn query(&self, around: LogicalCounts) -> Option<Counts> {
         self.oracle.then(Counts::paired(around, around.toffoli / 2))
     }
 
-    /// With the qubits of the oracle, of which O_0 borrows, and so many `more`.
+    /// Sets the qubits of `run`: those of the oracle, from which O_0 borrows, or of the iterate if these
+    /// are more, plus `more`.
     fn on(&self, around: &Counting<'_>, more: u32, run: Counts) -> Option<Counts> {
         let iterate = u64::from(around.iterate().qubits());
         run.each(|counts| {

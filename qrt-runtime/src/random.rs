@@ -1,25 +1,26 @@
-//! Random numbers, and what a seed promises.
+//! Random numbers, and the guarantees of a seed.
 //!
 //! # Seed policy
 //!
-//! Every random number qrt consumes is a pure function of
-//! `(seed, pixel x, pixel y, channel, position)`: nothing depends on threads, tiles, crops or on
-//! what was drawn elsewhere. A [`Stream`] holds the first four; shots read it in order, starting
-//! at position 0. The same seed gives the same picture on every machine and for any number of
-//! threads, within one minor version of qrt. A release that changes which draw is read where says
-//! so in its changelog.
+//! Every random number that qrt uses is a pure function of
+//! `(seed, pixel x, pixel y, channel, position)`. It does not depend on threads, tiles, crops or
+//! other draws. A [`Stream`] holds the first four; shots read it in order, starting at position 0.
+//! The same seed gives the same picture on every machine and for any number of threads, within one
+//! minor version of qrt. If a release changes the position at which a draw is read, its changelog
+//! says so.
 //!
 //! The generator is Philox4x32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy
 //! as 1, 2, 3*, SC 2011): a keyed bijection of 128-bit counters that passes `BigCrush`. The key is
 //! the seed; the counter is `[block (low), y, x, channel + 256 * block (high)]`, so that no two
-//! streams of one seed ever share a counter. What is drawn for a path reads the part of its pixel's
-//! stream that begins at block `path 2^16`. Which paths were measured with the indices that
-//! were is drawn from a stream of its own, with 128 added to the channel.
+//! streams of one seed ever share a counter. The draws of a path read the part of its pixel's
+//! stream that begins at block `path 2^16`. A separate stream, with 128 added to the channel, draws
+//! the paths to which the measured indices belong.
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
-/// The bit of a channel's number that no channel has: streams beside the channels' own.
+/// A bit that no channel's number has set. It distinguishes a separate stream from the channel's
+/// own.
 const BESIDE: u8 = 0x80;
 
 fn wide(a: u32, b: u32) -> (u32, u32) {
@@ -42,7 +43,7 @@ fn philox4x32(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// The random numbers of one pixel and channel: see the [module](self) for the seed policy.
+/// The random numbers of one pixel and channel. See the [module](self) for the seed policy.
 ///
 /// ```
 /// use qrt_runtime::random::Stream;
@@ -82,8 +83,8 @@ impl Stream {
         }
     }
 
-    /// Another stream of the same pixel and channel, from where this one stands: for what must not
-    /// change what is drawn here.
+    /// Returns another stream of the same pixel and channel, at the same position. Draws from it do
+    /// not change the draws from this stream.
     pub(crate) fn beside(&self) -> Self {
         Self {
             channel: self.channel ^ BESIDE,
@@ -106,18 +107,19 @@ impl Stream {
         u64::from(words[0]) | (u64::from(words[1]) << 32)
     }
 
-    /// Uniform in [0, 1), a multiple of 2^-53.
+    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
     pub fn uniform(&mut self) -> f64 {
         (self.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 
-    /// Uniform in `0..limit`, to one part in 2^64 / `limit`; 0 if the limit is 0.
+    /// Returns a uniform number in `0..limit`, to one part in 2^64 / `limit`; 0 if `limit` is 0.
     pub fn below(&mut self, limit: u64) -> u64 {
         ((u128::from(self.next_u64()) * u128::from(limit)) >> 64) as u64
     }
 
-    /// Uniform in (0, 1], with 53 significant bits however small it is (down to 2^-75): what the
-    /// inverse of a heavy-tailed distribution needs where its tail is thinnest.
+    /// Returns a uniform number in (0, 1] that has 53 significant bits however small it is (down to
+    /// 2^-75). The inverse of a heavy-tailed distribution needs this precision where its tail is
+    /// thinnest.
     pub fn fine_uniform(&mut self) -> f64 {
         const SCALE: f64 = 1.0 / 18_446_744_073_709_551_616.0;
         let high = self.next_u64();

@@ -1,4 +1,4 @@
-//! Writing a result so that its name never shows half of it.
+//! Writing a result so that its name never shows an incomplete file.
 
 #[cfg(test)]
 mod tests;
@@ -11,7 +11,7 @@ use std::hash::{BuildHasher as _, Hasher as _};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// What the names of partial files and checkpoints end in.
+/// Suffix of the names of partial files and checkpoints.
 pub const PARTIAL: &str = ".qrt-partial";
 
 /// Hexadecimal digits of a partial file's random number.
@@ -20,19 +20,20 @@ const RANDOM_DIGITS: usize = 16;
 /// The longest name that file systems in use give a file, in bytes.
 const LONGEST_NAME: usize = 255;
 
-/// Random names that are tried before it is given up.
+/// Number of random names that are tried before an error.
 const ATTEMPTS: u32 = 64;
 
-/// Writes the file at `path`, through `write`, all or nothing: the bytes go to a file beside it
-/// (`NAME.16 random hexadecimal digits.qrt-partial`) that takes its name, and the permissions of the
-/// file that it replaces, once everything is on the disk. If anything fails, what was at `path` is
-/// still there, whole, and the partial file is removed; a process killed meanwhile leaves only the
-/// partial file behind, which the next to write the same file removes. A link is followed, to a file
-/// that is not there yet, too. A device or pipe cannot be replaced and is written to directly, as is
-/// `/dev/stdout`, into whatever file a shell may have led it.
+/// Writes the file at `path`, through `write`, all or nothing. qrt writes the bytes to a partial
+/// file beside it (`NAME.16 random hexadecimal digits.qrt-partial`), with the permissions of the
+/// file that it replaces, and renames it to `path` once everything is on the disk. If anything
+/// fails, the old file at `path` is still complete, and the partial file is removed. A process that
+/// is killed meanwhile leaves only the partial file behind; the next call for the same file removes
+/// it. A link is followed, even to a file that does not exist yet. A device or pipe cannot be
+/// replaced and is written to directly. The same holds for `/dev/stdout`, to whatever file a shell
+/// has redirected it.
 ///
 /// # Errors
-/// What `write` returns, or what the file system says.
+/// Errors of `write` and of the file system.
 ///
 /// ```
 /// use std::io::{self, Write};
@@ -46,11 +47,11 @@ pub fn replace_file<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
 ) -> Result<(), E> {
-    // Its lock is held until it has its name.
+    // The lock is held until the file has its final name.
     replaced(path, write).map(drop)
 }
 
-/// As [`replace_file`], and hands over the file, open and locked.
+/// As [`replace_file`], but returns the file, open and locked.
 pub(crate) fn replaced<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
@@ -68,11 +69,10 @@ pub(crate) fn replaced<E: From<io::Error>>(
     Ok(file)
 }
 
-/// Finds out whether a file can be written at `place`, by making a partial file beside it and
-/// removing that.
+/// Checks that a file can be written at `place`: creates a partial file beside it and removes that.
 ///
 /// # Errors
-/// What the file system says.
+/// Errors of the file system.
 pub fn try_writing(place: &Place) -> io::Result<()> {
     if place.is_device() {
         return Ok(());
@@ -90,7 +90,7 @@ fn write_through<E: From<io::Error>>(
     Ok(out.into_inner().map_err(io::IntoInnerError::into_error)?)
 }
 
-/// The name of a partial file, which is removed when this is dropped unless it was renamed.
+/// A partial file's name. Unless the file was renamed, dropping this value removes it.
 struct Partial {
     path: PathBuf,
     renamed: bool,
@@ -116,7 +116,7 @@ impl Partial {
             };
             let renamed = false;
             let partial = Self { path, renamed };
-            // Before it was locked, another process may have taken it for abandoned.
+            // Another process may have taken the file for abandoned before it was locked.
             if file.try_lock()? == Lock::Others || !file.has_its_name()? {
                 continue;
             }
@@ -133,22 +133,22 @@ impl Partial {
 impl Drop for Partial {
     fn drop(&mut self) {
         if !self.renamed {
-            // There is nobody to tell, and the next to write the same file tries again.
+            // A destructor cannot report an error, and the next write to the same file tries again.
             let _ = disk::remove(&self.path);
         }
     }
 }
 
-/// A name that nobody can foresee: `NAME.16 hexadecimal digits.qrt-partial`.
+/// Returns an unpredictable name: `NAME.16 hexadecimal digits.qrt-partial`.
 fn partial_name(name: &OsStr) -> OsString {
-    // Keyed by the system's own random numbers.
+    // The system's random numbers key the hasher.
     let random = RandomState::new().build_hasher().finish();
     let mut partial = shortened(name, RANDOM_DIGITS + 1 + PARTIAL.len());
     partial.push(format!(".{random:016x}{PARTIAL}"));
     partial
 }
 
-/// Whether `partial` is such a name.
+/// Returns whether `partial` is the name of a partial file of `name`.
 fn is_partial_name(partial: &OsStr, name: &OsStr) -> bool {
     let name = shortened(name, RANDOM_DIGITS + 1 + PARTIAL.len());
     let partial = partial.as_encoded_bytes();
@@ -160,8 +160,9 @@ fn is_partial_name(partial: &OsStr, name: &OsStr) -> bool {
     digits.is_some_and(|digits| digits.len() == RANDOM_DIGITS && digits.iter().all(hexadecimal))
 }
 
-/// The path of the checkpoint of a picture: beside it, its name and [`PARTIAL`]. A name that leaves no
-/// room for that is cut, and a checksum of all of it tells it from others that begin alike.
+/// Path of a picture's checkpoint: beside the picture, its name and [`PARTIAL`]. A name that is too
+/// long for that is cut, and a checksum of the whole name distinguishes it from others that begin
+/// alike.
 ///
 /// ```
 /// use qrt_runtime::replace_file::checkpoint_of;
@@ -177,8 +178,8 @@ pub fn checkpoint_of(picture: &Path) -> PathBuf {
     picture.with_file_name(partial)
 }
 
-/// `name`, if `more` bytes fit behind it; or else as much of its beginning as does, `~` and a checksum of
-/// all of it.
+/// Returns `name`, if `more` bytes fit behind it. Otherwise returns the part of its beginning that
+/// fits, `~` and a checksum of the whole name.
 fn shortened(name: &OsStr, more: usize) -> OsString {
     let room = LONGEST_NAME - more;
     if name.len() <= room {
@@ -190,8 +191,8 @@ fn shortened(name: &OsStr, more: usize) -> OsString {
     OsString::from(format!("{start}{sum}"))
 }
 
-/// Removes the partial files of `target` that processes left which were killed: those that nobody
-/// has locked. What can't be looked at or removed stays.
+/// Removes the partial files of `target` that killed processes left: those that no process has
+/// locked. A file that can't be opened or removed stays.
 pub(crate) fn remove_abandoned(target: &Path) {
     let Some(name) = target.file_name() else {
         return;
@@ -206,7 +207,7 @@ pub(crate) fn remove_abandoned(target: &Path) {
             continue;
         };
         let ours = matches!(file.try_lock(), Ok(Lock::Ours));
-        // A process that wrote it may have given it its name meanwhile.
+        // The process that wrote it may have renamed it meanwhile.
         if ours && file.has_its_name().unwrap_or(false) {
             let _ = disk::remove(&path);
         }
@@ -217,7 +218,8 @@ pub(crate) fn remove_abandoned(target: &Path) {
 #[cfg(unix)]
 fn keep_permissions(file: &DiskFile, replaced: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt as _;
-    // Reading, writing and running; whose the file is may change, and so no `setuid`.
+    // Read, write and execute bits only: the new file's owner may differ, so it must not inherit
+    // `setuid`.
     let mode = replaced.permissions().mode() & 0o777;
     if file.metadata()?.permissions().mode() & 0o777 == mode {
         return Ok(());

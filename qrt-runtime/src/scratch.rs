@@ -1,4 +1,4 @@
-//! A folder of a test's own.
+//! A temporary folder for one test.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};

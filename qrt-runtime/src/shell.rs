@@ -1,9 +1,9 @@
-//! Commands as a POSIX shell reads them, for messages that suggest one.
+//! Quoting of commands for a POSIX shell, for messages that suggest a command.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// One word of a command line: quoted where a shell would read something else.
+/// Quotes one word of a command line if a shell would otherwise change it.
 ///
 /// ```
 /// use qrt_runtime::shell::word;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// ```
 pub fn word(text: &str) -> Cow<'_, str> {
     let plain = |letter: char| letter.is_alphanumeric() || "_-./:,=@%+".contains(letter);
-    // `~` and `=` at the beginning mean something to some shells.
+    // At the beginning of a word, some shells expand `~` and `=`.
     if !text.is_empty() && !text.starts_with('=') && text.chars().all(plain) {
         Cow::Borrowed(text)
     } else {
@@ -21,7 +21,7 @@ pub fn word(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A file's name as a word that no command takes for an option.
+/// Quotes a file's name so that no command takes it for an option.
 ///
 /// ```
 /// use qrt_runtime::shell::file;
@@ -36,7 +36,7 @@ pub fn file(path: &Path) -> String {
     }
 }
 
-/// A command of qrt, such as `qrt render`, with a file as its last argument.
+/// Formats a command of qrt, for example `qrt render`, with a file as its last argument.
 ///
 /// ```
 /// use qrt_runtime::shell::command;
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use std::process::Command;
 
-    /// A shell makes of it the word that it was made of.
+    /// A shell turns the quoted word back into the original text.
     #[test]
     fn a_shell_reads_words_back() {
         for text in [

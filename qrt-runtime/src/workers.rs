@@ -1,14 +1,14 @@
-//! Who does the work: threads, how they are stopped, and who is told how far they are.
+//! Threads that do the work, cancellation, and progress reports.
 //!
-//! Pictures, plans, checks and tables of trade-offs all take a [`Workers`]. Nothing that they find
-//! depends on it.
+//! Pictures, plans, checks and tables of trade-offs all take a [`Workers`]. Their results do not
+//! depend on it.
 
 pub(crate) mod slow_build;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Threads, how they are stopped, and who is told how far they are.
+/// Number of threads, a cancel flag, and a progress callback.
 ///
 /// ```
 /// use qrt_runtime::workers::Workers;
@@ -17,25 +17,25 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// ```
 #[derive(Clone, Copy, Default)]
 pub struct Workers<'a> {
-    /// Threads; as many as the machine has cores unless set.
+    /// Number of threads; the number of the machine's cores unless set.
     pub threads: Option<NonZeroUsize>,
-    /// Set it, from any thread, to stop.
+    /// A flag that stops the work when any thread sets it.
     pub cancel: Option<&'a AtomicBool>,
-    /// Told how far the work is, from any thread. Plans tell nothing.
+    /// A callback for progress, called from any thread. Plans do not call it.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
 }
 
-/// How far the work is: in paths of a picture or of a check, in rows of a table.
+/// Progress of the work: in paths of a picture or of a check, or in rows of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
     /// Once, at the beginning.
     Started {
-        /// All that there is to do.
+        /// The total amount of work.
         total: u64,
-        /// Of this, what an earlier run has done.
+        /// The part of `total` that an earlier run has finished.
         resumed: u64,
     },
-    /// So much more is finished.
+    /// The amount finished since the last report.
     Finished(u64),
 }
 
@@ -45,11 +45,11 @@ pub enum Progress {
 pub struct ThreadsError(#[from] rayon::ThreadPoolBuildError);
 
 /// Bytes of a thread's stack: enough for the native code of the longest circuit that becomes code,
-/// compiled without optimisation. Memory is taken as it is used.
+/// compiled without optimisation. The system allocates memory as the stack is used.
 const STACK: usize = 64 << 20;
 
 impl Workers<'_> {
-    /// Does `work` on threads that are started for it.
+    /// Runs `work` on threads that are started for it.
     pub(crate) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, ThreadsError> {
         let threads = self.threads.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new()
@@ -59,12 +59,12 @@ impl Workers<'_> {
         Ok(pool.install(work))
     }
 
-    /// Whether the work is to stop.
+    /// Returns whether the work must stop.
     pub(crate) fn cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Tells how far the work is.
+    /// Reports progress to the callback.
     pub(crate) fn report(&self, progress: Progress) {
         if let Some(listener) = self.progress {
             listener(progress);

@@ -1,60 +1,60 @@
-//! Why a checkpoint can't be used.
+//! Errors of reading and writing checkpoints.
 
 use super::format::VERSION;
 use std::io;
 use std::path::PathBuf;
 
-/// In what a checkpoint differs from the render that asks for it.
+/// A property in which a checkpoint differs from the render that opens it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// `scene`, `seed`, `film`, `crop`, or the name of an option.
+    /// The name of the property: `scene`, `seed`, `film`, `crop`, or the name of an option.
     pub what: String,
-    /// Its value in the checkpoint.
+    /// Its value in the checkpoint; `None` if the checkpoint does not set it.
     pub found: Option<String>,
-    /// Its value in the render that asks.
+    /// Its value in the render; `None` if the render does not set it.
     pub asked: Option<String>,
 }
 
-/// Why a checkpoint can't be used.
+/// An error of reading or writing a checkpoint.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)]
 pub enum CheckpointError {
-    /// The file system refused.
+    /// An operation of the file system failed.
     #[error("`{}`: {source}", .path.display())]
     Io { path: PathBuf, source: io::Error },
-    /// Another process is writing to it.
+    /// Another process holds the lock of the file.
     #[error("`{}` is being written by another render", .path.display())]
     InUse { path: PathBuf },
-    /// It is a link, a folder or a device.
+    /// The path is a link, a folder or a device.
     #[error(
         "`{}` is a link or no regular file, which a checkpoint never is: remove it, or name another \
          picture",
         .path.display()
     )]
     Irregular { path: PathBuf },
-    /// The file is gone in which the finished tiles were.
+    /// Another process removed or replaced the file, and the finished tiles in it are lost.
     #[error(
         "`{}` was removed or replaced while it was written: the tiles that it had are lost",
         .path.display()
     )]
     Lost { path: PathBuf },
-    /// The file is no checkpoint.
+    /// The file is not a checkpoint.
     #[error("`{}` is not a checkpoint of qrt", .path.display())]
     Foreign { path: PathBuf },
-    /// Written by another version of this format.
+    /// The file has another version of the checkpoint format.
     #[error("`{}` is a checkpoint of format {version}; this qrt reads {VERSION}", .path.display())]
     Version { path: PathBuf, version: u32 },
-    /// The header fails its sum.
+    /// The header does not match its CRC-32, or does not decode.
     #[error("`{}` is damaged: delete it and render anew", .path.display())]
     Damaged { path: PathBuf },
-    /// It belongs to another render.
+    /// The checkpoint belongs to another render.
     #[error("`{}` belongs to another render{}", .path.display(), listed(.differences))]
     Differs {
         path: PathBuf,
         differences: Vec<Difference>,
     },
-    /// A tile outside the crop, or whose pixels or queries don't fill it.
+    /// A tile is outside the crop, or its number of pixels or queries is not its area.
     #[error("a tile of {width} x {height} at ({x}, {y}) is not filled or not in the crop")]
     Tile {
         x: u32,
@@ -64,7 +64,7 @@ pub enum CheckpointError {
     },
 }
 
-/// A line each.
+/// Formats one line for each difference.
 fn listed(differences: &[Difference]) -> String {
     let of = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".into());
     let line = |Difference { what, found, asked }: &Difference| {

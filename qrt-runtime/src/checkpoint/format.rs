@@ -1,6 +1,6 @@
-//! The bytes of a checkpoint.
+//! The binary format of a checkpoint.
 //!
-//! Layout, all numbers little-endian, floats as their bits:
+//! Layout; all numbers are little-endian, floats are stored as their bits:
 //!
 //! ```text
 //! header  "QRTTILES", u32 version, u32 length of the body, body, u32 CRC-32 of all before
@@ -11,8 +11,8 @@
 //!         queries (u64 each), good ids (3 u64 each), widths of intervals (3 f64 each),
 //!         strata (3 u8 each)
 //! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
-//! ending  u32 2, text, u32 count of words, words (u64 each); only in a part of a picture, which has no
-//!         parts of pixels, and where it is last
+//! ending  u32 2, text, u32 count of words, words (u64 each); always the last record, and only in the
+//!         file of a part of a picture, which has no `part` records
 //! ```
 
 use super::{CheckpointError, Difference, Header, Part, Tile};
@@ -21,11 +21,11 @@ use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
 pub(super) const VERSION: u32 = 5;
-/// What records begin with.
+/// Kinds of record: the first word of a record.
 const TILE: u32 = 0;
 const PART: u32 = 1;
 const ENDING: u32 = 2;
-/// Bytes of a tile's record beside its pixels, and for each pixel.
+/// Bytes of a tile's record without its pixels, and bytes of each pixel.
 const RECORD: u64 = 24;
 const PIXEL: u64 = 83;
 
@@ -49,7 +49,7 @@ impl Header {
         seal(bytes)
     }
 
-    /// Takes a header off `bytes`.
+    /// Decodes a header and removes its bytes from the front of `bytes`.
     pub(crate) fn decode(bytes: &mut &[u8], path: &Path) -> Result<Self, CheckpointError> {
         let foreign = || CheckpointError::Foreign {
             path: path.to_path_buf(),
@@ -90,7 +90,8 @@ impl Header {
                 crop,
             })
         };
-        // Nothing else stands there, and no option twice.
+        // The body is valid only if encoding it again gives the same bytes: it has no further
+        // bytes, and no option occurs twice.
         let is_whole = |header: &Self| all.starts_with(&header.encode());
         read().filter(is_whole).ok_or_else(damaged)
     }
@@ -124,7 +125,7 @@ impl Header {
 }
 
 impl Tile {
-    /// How many pixels the tile has, if it lies in the crop.
+    /// Number of pixels of the tile; `None` if the tile is not within the crop.
     pub(super) fn area_within(&self, [x, y, width, height]: [u32; 4]) -> Option<u64> {
         let inside = |at: u32, size: u32, low: u32, room: u32| {
             size > 0
@@ -155,7 +156,7 @@ impl Tile {
         seal(bytes)
     }
 
-    /// Takes a tile off `bytes`, behind its kind; `all` begins with that.
+    /// Decodes a tile from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
         let mut tile = Self::of(take_rectangle(bytes)?);
         let area = tile.area_within(crop)?;
@@ -184,21 +185,22 @@ impl Tile {
     }
 }
 
-/// What stands behind the header.
+/// A record behind the header.
 pub(crate) enum Record {
     Tile(Tile),
     Part(Part),
     Ending(Ending),
 }
 
-/// What stands behind all pixels of a part of a picture.
+/// The text and the words that follow all pixels in the file of a part of a picture.
 pub(crate) struct Ending {
     pub(crate) text: String,
     pub(crate) words: Vec<u64>,
 }
 
 impl Record {
-    /// Takes a record off `bytes`; `None` at the end, and if it is torn.
+    /// Decodes a record and removes it from `bytes`; `None` at the end, or if the record is
+    /// incomplete or damaged.
     pub(crate) fn decode(bytes: &mut &[u8], crop: [u32; 4]) -> Option<Self> {
         let all = *bytes;
         match take_u32(bytes)? {
@@ -222,7 +224,7 @@ impl Part {
         seal(bytes)
     }
 
-    /// Takes a part off `bytes`, behind its kind; `all` begins with that.
+    /// Decodes a part from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
         let pixel = [take_u32(bytes)?, take_u32(bytes)?];
         Tile::of([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
@@ -246,7 +248,7 @@ impl Ending {
         seal(bytes)
     }
 
-    /// Takes an ending off `bytes`, behind its kind; `all` begins with that.
+    /// Decodes an ending from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8]) -> Option<Self> {
         let text = take_text(bytes)?;
         let words = take_words(bytes)?;
@@ -261,7 +263,7 @@ fn seal(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Takes the sum of everything that was taken off `all`.
+/// Reads a CRC-32 and checks that it is that of the bytes of `all` in front of it.
 fn take_seal(bytes: &mut &[u8], all: &[u8]) -> Option<()> {
     let sum = crc32fast::hash(&all[..all.len() - bytes.len()]);
     (take_u32(bytes)? == sum).then_some(())
@@ -289,7 +291,7 @@ fn take_u32(bytes: &mut &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(take(bytes, 4)?.try_into().ok()?))
 }
 
-/// x, y, width and height.
+/// Reads x, y, width and height.
 fn take_rectangle(bytes: &mut &[u8]) -> Option<[u32; 4]> {
     let mut next = || take_u32(bytes);
     Some([next()?, next()?, next()?, next()?])

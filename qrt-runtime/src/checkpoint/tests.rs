@@ -63,7 +63,7 @@ fn part(pixel: [u32; 2], number: u64, paths: u64) -> Part {
     }
 }
 
-/// Tiles, and parts of theirs and of other pixels; two of them in one write.
+/// Tiles, and parts of pixels inside and outside these tiles.
 fn records() -> Vec<Record> {
     let [a, b, c] = tiles().map(Record::Tile);
     let parts = [
@@ -78,7 +78,7 @@ fn records() -> Vec<Record> {
     vec![p, q, b, r, s, t, a, u, c]
 }
 
-/// What such records leave: tiles, and parts in the order of their places.
+/// The tiles and parts that count after `records`; parts are in the order of pixel and number.
 fn left(records: &[Record]) -> (Vec<Tile>, Vec<Part>) {
     let (mut tiles, mut parts) = (Vec::new(), BTreeMap::new());
     for record in records {
@@ -90,7 +90,7 @@ fn left(records: &[Record]) -> (Vec<Tile>, Vec<Part>) {
             Record::Part(part) => {
                 parts.insert((part.pixel, part.number), part.clone());
             }
-            // No checkpoint has one.
+            // A checkpoint of a render has no ending.
             Record::Ending(_) => {}
         }
     }
@@ -132,7 +132,7 @@ fn finished_tiles_come_back_and_the_render_goes_on() {
     assert_eq!(finished[3..], [tile(6, 1, 1, 1)]);
 }
 
-/// Where each record ends.
+/// The offset at which each record ends.
 fn ends() -> Vec<usize> {
     let start = header().encode().len();
     let records = records();
@@ -156,7 +156,7 @@ fn of_an_unfinished_pixel_the_last_of_each_part_comes_back() {
     with_parts(&path);
     let (mut checkpoint, (tiles, parts)) = opened(&path);
     assert_eq!((tiles.clone(), parts.clone()), left(&records()));
-    // Of those in the second tile none is left, but the one that came after it.
+    // The second tile dropped the earlier parts of its pixels; the part appended after it is left.
     let [a, b] = &parts[..] else {
         panic!("{parts:?}");
     };
@@ -230,7 +230,7 @@ fn records_that_no_longer_count_do_not_fill_the_disk() {
         records.extend(parts.map(Record::Part));
         most = most.max(fs::metadata(&path).unwrap().len());
         if paths % 97 == 0 {
-            // Under its new name it is locked, too.
+            // The compacted file has taken the old name, and is locked too.
             let second = Checkpoint::open(&path, &header());
             assert!(matches!(second, Err(CheckpointError::InUse { .. })));
             assert_eq!(folder.names(), ["c"]);
@@ -330,7 +330,7 @@ fn creating_forgets_what_was_there_once_there_is_a_tile() {
         seed: 8,
         ..header()
     };
-    // A render that is refused after all.
+    // These two renders append no tile.
     assert!(!Checkpoint::create(&path, &other).unwrap().close().unwrap());
     drop(Checkpoint::create(&path, &other).unwrap());
     assert_eq!(fs::read(&path).unwrap(), before);
@@ -472,7 +472,7 @@ fn what_is_appended_is_durable_a_second_later() {
     let path = folder.path("c");
     let watched = Watched::new(&folder.path(""), Plan::Nothing);
     let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
-    // The file itself, and its name.
+    // The first sync is that of the file, the second that of its name.
     let begun = [Operation::Sync, Operation::SyncFolder];
     assert!(watched.done().ends_with(&begun));
     checkpoint.append(&tiles()[0]).unwrap();

@@ -9,25 +9,29 @@ use super::double::{self, Double};
 pub(crate) struct Angle(Double);
 
 impl Angle {
+    /// Returns the angle for `good` among `total` indices.
+    ///
     /// # Errors
-    /// No indices, or more good indices than indices.
+    /// An error if `total` is 0 or `good` exceeds `total`.
     pub(crate) fn of(good: u64, total: u64) -> Result<Self, CountingError> {
         check_counts(good, total)?;
         Ok(Self(theta_of(good, total)))
     }
 
-    /// The angle, in turns of pi, whose sine is `|a - reference| / max(reference, 1 - reference)`
-    /// for a = S/N: what the shifted circuit turns by, in [0, 1/2]. `reference` is in [0, 1].
+    /// Returns the angle of the shifted circuit, `asin(sine) / pi`, in [0, 1/2].
+    ///
+    /// `sine` is `|a - reference| / max(reference, 1 - reference)` for a = S/N. `reference` is in
+    /// [0, 1].
     ///
     /// # Errors
-    /// No indices, or more good indices than indices.
+    /// An error if `total` is 0 or `good` exceeds `total`.
     pub(crate) fn shifted(good: u64, total: u64, reference: f64) -> Result<Self, CountingError> {
         check_counts(good, total)?;
         let reference = Double::from(reference);
         let rest = Double::ONE - reference;
         let scale = if reference.hi > 0.5 { reference } else { rest };
         let part = |ids: u64| Double::from(ids).divide(Double::from(total));
-        // From the nearer of 0 and 1, so that neither difference loses what the other has.
+        // Uses the smaller of a and 1 - a, which has the smaller absolute rounding error.
         let difference = if good <= total - good {
             part(good) - reference
         } else {
@@ -42,9 +46,11 @@ impl Angle {
         Ok(Self(double::theta(sine * sine, rest)))
     }
 
-    /// `sin^2(m pi theta)` and `cos^2(m pi theta)`, each to a few units of its own last place, but
-    /// for what m magnifies: m 2^-100 of a turn. The turn itself needs more than an `f64`; once it
-    /// is folded, its sine does not.
+    /// `sin^2(m pi theta)` and `cos^2(m pi theta)` for m = `multiple`.
+    ///
+    /// Each has an error of a few units in its own last place, plus that of m 2^-100 turns in the
+    /// angle. The angle needs more precision than an `f64` has; once it is folded, an `f64` is
+    /// enough for its sine.
     pub(crate) fn sine_squared(self, multiple: u64) -> (f64, f64) {
         let folded = self.folded(multiple);
         let square = |turns: f64| {
@@ -62,8 +68,9 @@ impl Angle {
             .floor()
     }
 
-    /// The largest S whose theta is at most `position`, in units of 2^-64 turns and at most 1/2;
-    /// within one, where a rounding decides.
+    /// The largest S whose theta is at most `position`.
+    ///
+    /// `position` is in units of 2^-64 turns, and at most 1/2 turn. Rounding can change S by one.
     pub(crate) fn count_below(position: u64, total: u64) -> u64 {
         let theta = Double::from(position).scale(1.0 / 18_446_744_073_709_551_616.0);
         (double::sine_squared(theta) * Double::from(total))
@@ -88,8 +95,8 @@ impl Angle {
 mod tests {
     use super::*;
 
-    /// Multiples of the angle by the recurrence of Chebyshev's polynomials, in integers modulo
-    /// nothing: `sin^2` of m times the angle of a = S/N is a polynomial of a.
+    /// Compares with the recurrence of Chebyshev's polynomials: `sin^2` of m times the angle of a =
+    /// S/N is a polynomial in a.
     #[test]
     fn multiples_are_those_of_chebyshev() {
         for (good, total) in [
@@ -117,7 +124,7 @@ mod tests {
         }
     }
 
-    /// Against the arc sine of `f64`, and where the sine is 0 or 1 exactly.
+    /// Compares with the arc sine of `f64`, and checks cases in which the sine is exactly 0 or 1.
     #[test]
     fn shifted_angles_are_arc_sines() {
         for (good, total) in [
@@ -152,7 +159,8 @@ mod tests {
         assert!(Angle::shifted(2, 1, 0.5).is_err());
     }
 
-    /// 2^40 turns of 1/3: theta = 1/3 for S/N = 3/4, so m theta depends on m modulo 3 alone.
+    /// Checks multiples m of 2^40 and more: theta = 1/3 for S/N = 3/4, so m theta modulo 1 depends
+    /// only on m modulo 3.
     #[test]
     fn large_multiples_keep_their_place_in_the_turn() {
         let angle = Angle::of(3, 4).unwrap();

@@ -1,24 +1,26 @@
-//! Binomial numbers: how many of n independent indices are good.
+//! Binomial draws: the number of good indices among n independent ones.
 //!
-//! Classical Monte Carlo with n paths sees only this count, so that one draw replaces n. Few
-//! expected successes are counted off by inversion; many by transformed rejection (Hoermann, *The
-//! generation of binomial random variates*, 1993, algorithm BTRS), whose acceptance compares exact
-//! probabilities in Loader's form (*Fast and accurate computation of binomial probabilities*,
-//! 2000), which keeps its precision up to n = 2^63.
+//! Classical Monte Carlo with n paths depends on this count alone, so one draw replaces n paths. If
+//! fewer than ten successes are expected, the draw is by inversion. Otherwise it is by transformed
+//! rejection (Hoermann, *The generation of binomial random variates*, 1993, algorithm BTRS). The
+//! acceptance test compares exact probabilities in Loader's form (*Fast and accurate computation of
+//! binomial probabilities*, 2000), which keeps its precision up to n = 2^63.
 
 use std::f64::consts::TAU;
 
 use crate::random::Stream;
 
-/// Draws the number of good indices among `trials` drawn with replacement from `total`, of which
-/// `good` are good. `good <= total`, `total > 0`.
+/// Draws the number of good indices among `trials` indices, drawn with replacement from `total`.
+///
+/// `good` of the `total` indices are good. Requires `good <= total` and `total > 0`.
 pub(crate) fn draw(trials: u64, good: u64, total: u64, stream: &mut Stream) -> u64 {
     let fraction = |part: u64| part as f64 / total as f64;
     draw_with(trials, fraction(good), fraction(total - good), stream)
 }
 
-/// Draws the number of successes among `trials` with probability `p` each, where `q = 1 - p` is
-/// given for its own sake: the smaller of the two decides.
+/// Draws the number of successes among `trials` with probability `p` each.
+///
+/// `q = 1 - p` is a parameter because the draw uses the smaller of `p` and `q`, to full precision.
 pub(crate) fn draw_with(trials: u64, p: f64, q: f64, stream: &mut Stream) -> u64 {
     if p > q {
         return trials - draw_with(trials, q, p, stream);
@@ -40,8 +42,8 @@ fn by_inversion(trials: u64, p: f64, stream: &mut Stream) -> u64 {
     loop {
         let mut left = stream.uniform();
         let mut probability = none;
-        // The mean is below 10: beyond 200 lies less than 1e-150, so that only a rounding of the
-        // sum gets there, and the draw is repeated.
+        // The mean is below 10, so more than 200 successes have a probability below 1e-150. Only
+        // rounding of the sum can end the loop without a result; then the draw is repeated.
         for k in 0..=trials.min(200) {
             if left < probability {
                 return k;
@@ -88,7 +90,7 @@ pub(crate) fn ln_probability(n: f64, p: f64, k: f64) -> f64 {
         return n * libm::log(p);
     }
     let rest = n - k;
-    // k - np, formed once: n - k and n(1-p) differ by the same.
+    // k - np, computed once: n - k and n(1-p) differ by the same amount, with the opposite sign.
     let difference = k - n * p;
     stirling(n)
         - stirling(k)

@@ -1,22 +1,22 @@
-//! From a path's colour to good indices, and from an amplitude to a pixel.
+//! Comparators: from a path's colour to good indices, and from an amplitude to a pixel.
 //!
-//! An index of the oracle is a path index and a comparator y of C = 2^c. It is good when the path's
-//! colour x exceeds the comparator's threshold, so that the fraction of good indices is the mean
+//! An index of the oracle is a path index and a comparator y of C = 2^c. It is good if the path's
+//! colour x exceeds the comparator's threshold. The fraction of good indices is therefore the mean
 //! colour over the colour scale, rounded path by path. With h = scale / C:
 //!
 //! * `midpoints`, thresholds `(y + 1/2) h`: `|h #{y: x > (y + 1/2) h} - x| <= h/2`;
 //! * `edges`, thresholds `y h` (the paper's): `#{y: x > y h} = ceil(x/h)`, too large by an error in
 //!   [0, h).
 //!
-//! Thresholds are the `f64` nearest to their definition, and the comparison is strict: exact at
-//! every boundary. A count is a product, a truncation and a comparison, without a branch: it runs
-//! for every path.
+//! Each threshold is the `f64` nearest to its definition, and the comparison is strict, so counts
+//! are exact at every boundary. A count takes a product, a truncation and a comparison, without a
+//! branch, because it runs for every path.
 
 use qrt_core::scene::{Comparator, ComparatorAt};
 
 use super::error::CountingError;
 
-/// The most comparator bits.
+/// The largest number of comparator bits.
 pub const MAX_COMPARATOR_BITS: u32 = 30;
 
 /// C = 2^c comparators over [0, scale].
@@ -40,7 +40,8 @@ pub struct Comparators {
 }
 
 impl Comparators {
-    /// Comparators over colours in `[0, scale]`; `scale` is in units of radiance and may be 0.
+    /// Creates comparators for colours in `[0, scale]`; `scale` is in units of radiance and may be
+    /// 0.
     ///
     /// # Errors
     ///
@@ -70,7 +71,7 @@ impl Comparators {
         })
     }
 
-    /// Comparators of a pixel's channels, red, green and blue, whose colours are in `[0, scale]`.
+    /// Creates the comparators of a pixel's red, green and blue channels, with one `scale` each.
     ///
     /// # Errors
     /// As [`Comparators::new`].
@@ -79,7 +80,7 @@ impl Comparators {
         Ok([r?, g?, b?])
     }
 
-    /// c, the register's qubits.
+    /// c, the number of qubits of the comparator register.
     pub fn bits(&self) -> u32 {
         self.bits
     }
@@ -94,22 +95,22 @@ impl Comparators {
         self.step
     }
 
-    /// How many thresholds the colour `x` exceeds, in `0 ..= C`.
+    /// Number of thresholds that the colour `x` exceeds, in `0 ..= C`.
     ///
-    /// A colour above the scale exceeds them all, one below 0 and NaN exceed none.
+    /// A colour above the scale exceeds all thresholds. A colour below 0 or NaN exceeds none.
     #[inline]
     pub fn good(&self, x: f64) -> u32 {
         let count = 1_i32 << self.bits;
-        // Thresholds below number `at` are exceeded, and none above it. A colour above a threshold
-        // is so by at least half a unit in the last place, which outweighs the rounding of the
-        // inverse; one at or below may be rounded up to it, and the comparison decides. The cast
-        // sends NaN to 0.
+        // `x` exceeds every threshold numbered below `at`, and none numbered above it. A colour
+        // above a threshold exceeds it by at least half a unit in the last place, which outweighs
+        // the rounding of `inverse`. A colour at or below a threshold may be rounded up to it; the
+        // comparison corrects that. The cast turns NaN into 0.
         let at = (x * self.inverse - self.start).clamp(0.0, f64::from(count)) as i32;
         let threshold = (f64::from(at) + self.start) * self.step;
         at as u32 + u32::from(at < count && x > threshold)
     }
 
-    /// Good indices of all `colours`' paths.
+    /// Number of good indices of all paths with the given `colours`.
     pub fn good_total(&self, colours: &[f64]) -> u64 {
         colours
             .iter()
@@ -127,7 +128,7 @@ impl Comparators {
         self.scale * amplitude
     }
 
-    /// Bounds of (comparators' value - x) for colours in `[0, scale]`: `(-h/2, h/2)` or `(0, h)`.
+    /// Bounds of the error `h good(x) - x` for colours in `[0, scale]`: `(-h/2, h/2)` or `(0, h)`.
     pub fn error_bounds(&self) -> (f64, f64) {
         (
             (0.0 - self.start) * self.step,
@@ -201,7 +202,7 @@ mod tests {
         }
     }
 
-    /// Where the division rounds to the wrong side of a threshold.
+    /// Checks scales for which the division rounds to the wrong side of a threshold.
     #[test]
     fn every_threshold_of_awkward_scales_is_exact() {
         for tenths in 1..60 {

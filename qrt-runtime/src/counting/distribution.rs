@@ -1,15 +1,16 @@
-//! The exact distribution of what quantum counting measures, P(theta~ | theta).
+//! The exact distribution P(theta~ | theta) of the outcomes of quantum counting.
 //!
 //! With S good indices among N, the Grover iterate has the eigenphases +-theta turns, where
-//! `theta = asin(sqrt(S/N)) / pi` in [0, 1/2], and the uniform superposition of indices holds both
-//! equally. The phase register cannot tell them apart: outcomes y and T - y mean the same
-//! `theta~ = y/T`, and are folded onto `y = 0 ..= T/2`. With the kernel K of a single phase,
+//! `theta = asin(sqrt(S/N)) / pi` in [0, 1/2]. The uniform superposition of indices contains both
+//! eigenvectors equally, and the phase register cannot distinguish them: outcomes y and T - y mean
+//! the same `theta~ = y/T`. They are folded onto `y = 0 ..= T/2`. With the kernel K of a single
+//! phase,
 //!
 //! ```text
 //! P(y) = K(y - T theta) + K(y + T theta),   0 < y < T/2,
 //! ```
 //!
-//! and one of the two, which coincide, for y = 0 and y = T/2. Over all y it sums to 1.
+//! For y = 0 and y = T/2 the two terms coincide, and P(y) is one of them. The sum over all y is 1.
 
 use qrt_core::scene::Window;
 
@@ -21,7 +22,7 @@ use crate::random::Stream;
 
 /// T theta as the nearest outcome and the offset from it, in [-1/2, 1/2].
 ///
-/// Kept apart, because at T = 2^40 their sum would leave 13 bits for the offset.
+/// The two are separate because their sum at T = 2^40 would leave 13 bits for the offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Phase {
     pub(crate) cell: u64,
@@ -33,7 +34,7 @@ impl Phase {
         let steps = theta.scale(register.size() as f64);
         let nearest = steps.hi.round();
         let offset = (steps.hi - nearest) + steps.lo;
-        // `hi` may be halfway where `hi + lo` is not.
+        // `hi` may be halfway between two integers although `hi + lo` is not.
         if offset < -0.5 {
             Self {
                 cell: nearest as u64 - 1,
@@ -52,8 +53,7 @@ impl Phase {
         }
     }
 
-    /// The phase `position` grid steps from 0, for a position in [0, T/2] given as a grid point
-    /// and a remainder in [-1, 1].
+    /// The phase `cell + remainder` grid steps from 0, in [0, T/2]; `remainder` is in [-1, 1].
     pub(crate) fn at(cell: u64, remainder: f64) -> Self {
         let nearest = remainder.round();
         Self {
@@ -68,8 +68,9 @@ impl Phase {
     }
 }
 
-/// asin(sqrt(good/total)) / pi to 104 bits; exact where it is a multiple of 1/4. (By Niven's
-/// theorem no other ratio lands on a grid of a power of two.)
+/// asin(sqrt(good/total)) / pi to 104 bits; exact if it is a multiple of 1/4.
+///
+/// By Niven's theorem no other ratio has a theta on a grid whose size is a power of two.
 pub(crate) fn theta_of(good: u64, total: u64) -> Double {
     if good == total - good {
         return Double::from(0.25);
@@ -92,7 +93,7 @@ pub(crate) fn ln_probability(register: &Register, phase: Phase, y: u64) -> f64 {
     2.0 * libm::log(large) + libm::log1p(ratio * ratio)
 }
 
-/// The square roots of the two terms of P(y); the second is zero where they coincide.
+/// The square roots of the two terms of P(y); the second is zero if the terms coincide.
 fn roots(register: &Register, phase: Phase, y: u64) -> (f64, f64) {
     let half = register.size() / 2;
     let cell = phase.cell;
@@ -110,8 +111,9 @@ fn roots(register: &Register, phase: Phase, y: u64) -> (f64, f64) {
     (near, far)
 }
 
-/// P(theta~ | theta): what a phase register of `T = 2^phase_bits` reads, folded onto
-/// `y = 0 ..= T/2`.
+/// P(theta~ | theta): the outcome distribution of a phase register of size `T = 2^phase_bits`.
+///
+/// Outcomes are folded onto `y = 0 ..= T/2`.
 ///
 /// ```
 /// use qrt_core::scene::Window;
@@ -201,7 +203,7 @@ impl PhaseDistribution {
         near * near + far * far
     }
 
-    /// ln P(y), which does not underflow; negative infinity where P(y) is zero.
+    /// ln P(y), which does not underflow; negative infinity if P(y) is zero.
     pub fn ln_probability(&self, y: u64) -> f64 {
         if y > self.largest_outcome() {
             return f64::NEG_INFINITY;
@@ -214,7 +216,7 @@ impl PhaseDistribution {
         self.sampler().sample(stream)
     }
 
-    /// A sampler of this distribution: O(1) expected time per draw whatever T is.
+    /// A sampler of this distribution, with O(1) expected time per draw for every T.
     pub fn sampler(&self) -> Sampler {
         Sampler::new(self.register, self.phase)
     }

@@ -1,9 +1,9 @@
 //! Double-double numbers: 106 bits as an unevaluated sum of two `f64`.
 //!
-//! At T = 2^40 the distribution depends on T theta modulo 1, and an `f64` theta leaves 12 bits of
-//! that: theta itself needs more than 53. The arithmetic is Dekker's (*A floating-point technique
-//! for extending the available precision*, 1971). Products are split rather than fused, because a
-//! fused multiply-add is a slow call wherever the build does not assume the instruction.
+//! At T = 2^40 the distribution depends on T theta modulo 1, of which an `f64` theta has only 12
+//! bits: theta itself needs more than 53 bits. The arithmetic is Dekker's (*A floating-point
+//! technique for extending the available precision*, 1971). Products split their factors instead of
+//! using a fused multiply-add, which is a slow call unless the build assumes the instruction.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -58,7 +58,7 @@ impl From<f64> for Double {
 }
 
 impl From<u64> for Double {
-    /// Exact: two `f64` hold any 64 bits.
+    /// Converts exactly: two `f64` hold any 64-bit integer.
     fn from(value: u64) -> Self {
         let high = (value >> 32) << 32;
         two_sum(high as f64, (value - high) as f64)
@@ -107,7 +107,7 @@ impl Double {
     pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
     pub(crate) const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
-    /// Exact as long as `factor` is a power of two.
+    /// Multiplies by `factor`; exact if `factor` is a power of two.
     pub(crate) fn scale(self, factor: f64) -> Self {
         Self {
             hi: self.hi * factor,
@@ -115,7 +115,7 @@ impl Double {
         }
     }
 
-    /// Quotient; the divisor is not zero.
+    /// Divides by `divisor`, which is not zero.
     pub(crate) fn divide(self, divisor: Self) -> Self {
         let first = self.hi / divisor.hi;
         let rest = self - divisor * Self::from(first);
@@ -140,7 +140,7 @@ impl Double {
         quick_two_sum(root, rest.hi / (2.0 * root))
     }
 
-    /// (sin, cos) of an angle of at most pi/4 (and a little), to a few 2^-104.
+    /// (sin, cos) of an angle of at most slightly more than pi/4, with errors of a few 2^-104.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         let square = self * self;
         let (mut sine, mut cosine) = (Self::ONE, Self::ONE);
@@ -164,7 +164,7 @@ impl Double {
 
 /// theta = asin(sqrt(a)) / pi in [0, 1/2], for `good` = a and `bad` = 1 - a.
 ///
-/// One Newton step from the `f64` arc tangent: its error of 2^-53 radians is cubed.
+/// Takes one Newton step from the `f64` arc tangent. The step cubes its error of 2^-53 radians.
 pub(crate) fn theta(good: Double, bad: Double) -> Double {
     let (sine, cosine) = (good.sqrt(), bad.sqrt());
     let mirrored = sine.hi > cosine.hi;

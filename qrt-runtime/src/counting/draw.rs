@@ -1,17 +1,17 @@
 //! Draws from the counting distribution in constant expected time.
 //!
-//! Let `T theta = m + f` with m the nearest outcome. Unfolded, the register reads `m + k` with
-//! probability `K(k - f)`, for k over any T consecutive integers. The central lobe (two to four
-//! values of k) is drawn by its exact probabilities. The rest is drawn by rejection from a
-//! density whose integral is inverted in closed form, and which bounds K times a constant:
+//! Let `T theta = m + f` with m the nearest outcome. Before folding, the register reads `m + k`
+//! with probability `K(k - f)`, for k over any T consecutive integers. The central lobe (two to
+//! four values of k) is drawn by its exact probabilities. The rest is drawn by rejection. The
+//! proposal density times a constant bounds K, and its integral has a closed-form inverse:
 //!
 //! * rectangular: `csc^2(pi u/T)`, whose integral is a cotangent;
 //! * sine: `csc^4(pi u/T)`, whose integral is `c + c^3/3` of the cotangent c.
 //!
-//! A draw `u` stands for the integer nearest to `u + f`. Both densities are convex, so that the
-//! integral over the unit cell around an integer is at least the value at its centre (Jensen):
-//! accepting with the ratio of the two gives K exactly. The central lobe and the bound are drawn
-//! from together, so that a trial ends with at least the probability of the lobe, whatever f is.
+//! A draw `u` stands for the integer nearest to `u + f`. Both densities are convex, so the integral
+//! over the unit cell around an integer is at least the value at the integer (Jensen). Acceptance
+//! with the ratio of K to that integral gives exactly K. One trial draws from the lobe and the
+//! bound together, so it ends with at least the probability of the lobe, for every f.
 
 use std::f64::consts::PI;
 
@@ -26,24 +26,24 @@ use crate::random::Stream;
 pub struct Sampler {
     register: Register,
     cell: u64,
-    /// |f|; `mirrored` when f is negative, and then k counts downwards.
+    /// |f|. If f is negative, `mirrored` is true and k counts downwards.
     offset: f64,
     mirrored: bool,
-    /// k and K(k - f), the likeliest first.
+    /// Pairs of k and K(k - f), the likeliest first.
     lobe: [(i64, f64); 4],
     lobe_len: usize,
-    /// The two tails, beyond the lobe to the right and to the left.
+    /// The tails beyond the lobe: the right one, then the left one.
     tails: [Tail; 2],
     total: f64,
 }
 
-/// Cells of one side of the lobe, at distance `u` from T theta.
+/// The cells on one side of the lobe, by their distance `u` from T theta.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tail {
-    /// The integral's values at the tail's ends, the far one first; `mass` is 0 without cells.
+    /// Values of the integral at the far and the near end of the tail.
     far: f64,
     near: f64,
-    /// Integral of the bound over the tail.
+    /// Integral of the bound over the tail; 0 if the tail has no cells.
     mass: f64,
     /// The range of distances in steps, inclusive.
     first: i64,
@@ -116,7 +116,7 @@ impl Sampler {
         }
     }
 
-    /// The cotangent of which [`Self::integral`] is `value`.
+    /// The cotangent at which [`Self::integral`] is `value`.
     fn inverse(&self, value: f64) -> f64 {
         match self.register.window {
             Window::Rect => value,
@@ -125,7 +125,7 @@ impl Sampler {
         }
     }
 
-    /// The constant that makes the density a bound of K over the tails.
+    /// The factor with which the density is an upper bound of K over the tails.
     fn bound(&self) -> f64 {
         let size = self.register.size() as f64;
         match self.register.window {
@@ -187,12 +187,12 @@ impl Sampler {
             (self.tails[1], self.offset)
         };
         if tail.mass <= 0.0 {
-            // A rounding beyond the last of the weights.
+            // Rounding took `position` beyond the last weight.
             return None;
         }
         let value = tail.far + stream.fine_uniform() * (tail.near - tail.far);
         let u = self.register.size() as f64 / PI * libm::atan2(1.0, self.inverse(value));
-        // A rounding may put u a hair outside of the tail's cells.
+        // Rounding may put `u` slightly outside of the tail's cells.
         let steps = ((u - shift).round() as i64).clamp(tail.first, tail.last);
         let k = if right { steps } else { -steps };
         let accept = self.register.weight(k, self.offset) / self.cell_mass(steps as f64 + shift);

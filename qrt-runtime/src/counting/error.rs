@@ -1,11 +1,11 @@
-//! Errors of counting: sizes and outcomes that it refuses.
+//! Errors of counting: invalid sizes and outcomes.
 
-/// The largest phase register.
+/// The largest number of phase bits.
 pub const MAX_PHASE_BITS: u32 = 40;
-/// The most repetitions of one estimate.
+/// The largest number of repetitions of one estimate.
 pub const MAX_REPETITIONS: u32 = 1_000_000;
 
-/// Why counting cannot be done as asked.
+/// An error in the arguments of counting or inference.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CountingError {
@@ -15,18 +15,18 @@ pub enum CountingError {
     /// More good indices than indices.
     #[error("{good} good indices out of {total}: there cannot be more good indices than indices")]
     MoreGoodThanTotal {
-        /// S, the number of good indices that was given.
+        /// S, the given number of good indices.
         good: u64,
-        /// N, the number of all indices that was given.
+        /// N, the given number of all indices.
         total: u64,
     },
     /// The amplitude is not in [0, 1].
     #[error("an amplitude of {0} is not in [0, 1]")]
     AmplitudeOutOfRange(f64),
-    /// The phase register has no size in `1..=40` bits.
+    /// The phase register's size is not in `1..=40` bits.
     #[error("{0} phase bits are not in 1..={MAX_PHASE_BITS}")]
     PhaseBitsOutOfRange(u32),
-    /// The repetitions are not in `1..=1000000`.
+    /// The number of repetitions is not in `1..=1000000`.
     #[error("{0} repetitions are not in 1..={MAX_REPETITIONS}")]
     RepetitionsOutOfRange(u32),
     /// An outcome beyond T/2.
@@ -35,23 +35,23 @@ pub enum CountingError {
          0..={largest}"
     )]
     OutcomeOutOfRange {
-        /// The outcome y that was given.
+        /// The given outcome y.
         outcome: u64,
         /// The largest outcome, T/2.
         largest: u64,
     },
-    /// Nothing was measured, so nothing can be inferred.
+    /// There are no outcomes to infer from.
     #[error("no outcome to infer anything from")]
     NoOutcomes,
-    /// No number of good indices could have given these outcomes.
+    /// No number of good indices could produce the given outcomes.
     #[error("no number of good indices could have given these outcomes")]
     ImpossibleOutcomes,
-    /// More indices than can be gone through one by one.
+    /// Too many indices to enumerate.
     #[error("{total} indices are too many to go through one by one; at most {most}")]
     TooManyIds {
         /// N, the number of all indices.
         total: u64,
-        /// The most that can be gone through.
+        /// The largest number of indices that can be enumerated.
         most: u64,
     },
     /// A comparator register that is not in `0..=30` bits.

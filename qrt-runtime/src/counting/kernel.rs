@@ -1,4 +1,4 @@
-//! What one eigenphase leaves in the phase register.
+//! The outcome distribution of the phase register for one eigenphase.
 //!
 //! Phase estimation of a phase of `x` grid steps (T steps make a turn) returns outcome `k` with
 //! probability `K(k - x)`, where for amplitudes `w_j` on the phase register
@@ -17,12 +17,12 @@
 //! K(x) = (sin(pi/n) / sin(pi (z+1)/n))^2 / (2 T n) * (sin(pi z) / sin(pi z/n))^2,
 //! ```
 //!
-//! whose last factor is a Dirichlet kernel: n^2 where z = 0, that is, half a step off the grid.
+//! whose last factor is a Dirichlet kernel: n^2 if z = 0, that is, half a step off the grid.
 //! (Luis & Perina, *Optimum phase-shift estimation and the quantum description of the phase
 //! difference*, 1996, introduced this window.)
 //!
-//! An offset is always carried as an integer and a remainder, `x = k - f` with `|f| <= 1/2`: the
-//! numerators depend on f alone, so nothing is lost to the size of k.
+//! The functions take an offset as an integer and a remainder, `x = k - f` with `|f| <= 1/2`. The
+//! numerators depend on f alone, so a large k does not cost precision.
 
 use std::f64::consts::PI;
 
@@ -33,7 +33,7 @@ use qrt_core::scene::Window;
 pub(crate) struct Register {
     pub(crate) bits: u32,
     pub(crate) window: Window,
-    /// sin(pi/n) / sqrt(2 T n); of the sine window only.
+    /// sin(pi/n) / sqrt(2 T n); used for the sine window only.
     coefficient: f64,
 }
 
@@ -54,7 +54,7 @@ impl Register {
         1 << self.bits
     }
 
-    /// `sqrt(K(k - f))` for `|k| <= T/2`, `|f| <= 1/2`. Never above 1, by any rounding.
+    /// `sqrt(K(k - f))` for `|k| <= T/2`, `|f| <= 1/2`. The result is clamped to at most 1.
     pub(crate) fn root(&self, k: i64, f: f64) -> f64 {
         // K is even: keep x = k - f at or above zero.
         let (k, f) = if k < 0 || (k == 0 && f > 0.0) {
@@ -94,8 +94,9 @@ impl Register {
         root * root
     }
 
-    /// An upper bound of `sqrt(K(x))` that falls as `x` grows over [0, T/2]: `K` with its
-    /// oscillating numerator set to 1, and never above 1.
+    /// An upper bound of `sqrt(K(x))` that decreases in `x` over [0, T/2] and never exceeds 1.
+    ///
+    /// The bound is `sqrt(K(x))` with the oscillating numerator set to 1.
     pub(crate) fn envelope(&self, x: f64) -> f64 {
         let size = self.size() as f64;
         let bound = match self.window {
@@ -104,7 +105,7 @@ impl Register {
                 let points = size + 1.0;
                 let z = x * (points / size) - 0.5;
                 if z <= 0.5 {
-                    // The main lobe falls from its top; half a step away z is 0, and K n/(2T).
+                    // The main lobe falls from its top. Half a step away, z is 0 and K is n/(2T).
                     return if z >= 0.0 {
                         (0.5 * points / size).sqrt()
                     } else {
@@ -115,7 +116,7 @@ impl Register {
                 self.coefficient / sines
             }
         };
-        // The widening covers the roundings of this function and of `root`.
+        // The factor covers the rounding errors of this function and of `root`.
         (bound * (1.0 + 1e-12)).min(1.0)
     }
 }

@@ -1,8 +1,9 @@
 //! Maximum likelihood over the number of good indices.
 //!
-//! The paper's estimator: uniform prior over the N+1 values of theta_S, B outcomes, the likeliest
-//! S. `L(S) = sum_y c_y ln P(y | theta_S)`, in logarithms throughout; where P is zero (theta_S on
-//! the grid, and not at y) L is negative infinity and S is out.
+//! The paper's estimator takes B outcomes and a uniform prior over the N+1 values of theta_S, and
+//! returns the likeliest S. It maximises `L(S) = sum_y c_y ln P(y | theta_S)`, where c_y is the
+//! number of occurrences of y, in logarithms throughout. If P is zero (theta_S is on the grid, but
+//! not at y), L is negative infinity and S is excluded.
 //!
 //! # Finding the maximum without trying every S
 //!
@@ -12,19 +13,20 @@
 //! P(y) = sin^2(pi T theta)/T^2 * 2 (s + p - 2 s p)/(s - p)^2,
 //! ```
 //!
-//! and sin^2(pi T theta) is a polynomial in s with its zeros on the grid, one pair of which cancels
-//! against each outcome's poles. L is therefore a sum of logarithms of linear functions of s, with
-//! weights that are not negative: concave in every cell between neighbouring grid points. Across a
-//! gap without outcomes, from cell to cell at a fixed place within them, L is convex (sums of
-//! log-convex csc^2). So it is enough to walk outwards from every observed outcome, in both
-//! directions, until a bound of the cell falls below the best value found; and within a cell to
-//! maximise one smooth function and look at the integers beside its maximum. Where cells are
+//! and sin^2(pi T theta) is a polynomial in s with its zeros on the grid. One pair of these zeros
+//! cancels against each outcome's poles. L is therefore a sum of logarithms of linear functions of
+//! s with non-negative weights, and concave in every cell between neighbouring grid points. Across
+//! a gap without outcomes, from cell to cell at a fixed place within them, L is convex (sums of
+//! log-convex csc^2). The search therefore walks outwards from every observed outcome, in both
+//! directions, until an upper bound of L over the cell falls below the best value found. Within a
+//! cell it maximises one smooth function and tries the integers beside its maximum. If cells are
 //! narrower than the distance between integers, the walk goes from integer to integer instead.
 //!
-//! The sine window's factors have zeros of their own, about half a step off the grid and not quite
-//! in common. Its cells are the steps around grid points; each is cut at the zeros of all outcomes,
-//! between which L is concave but for the folding, and every peak found on a grid is followed. Its
-//! bound falls with the fourth power of the distance, so that the same walk is short.
+//! The sine window's factors have zeros of their own, about half a step off the grid, and each
+//! outcome has slightly different ones. The cells of this window are the steps around grid points.
+//! The search cuts each cell at the zeros of all outcomes. Between these zeros L is concave, except
+//! for the effect of folding, and the search follows every peak that it finds on a grid. The bound
+//! falls with the fourth power of the distance, so the walk is short here, too.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -35,25 +37,27 @@ use super::double::{self, Double};
 use super::error::CountingError;
 use super::kernel::Register;
 
-/// Up to this many integers of a cell are tried one by one.
+/// The largest number of integers of a cell that are tried one by one, and of steps of a climb.
 const FEW: u64 = 24;
-/// Steps of the grid on which the sine window's peaks are looked for between its zeros.
+/// Number of grid steps between two zeros in the search for the sine window's peaks.
 const PLACES: usize = 8;
-/// Zeros closer than this, in steps of the register, hardly leave room for a peak.
+/// Distance of two zeros, in steps of the register, below which a peak between them is unlikely.
 const SLIVER: f64 = 1.0 / 16.0;
 
 /// The likeliest number of good indices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaximumLikelihood {
-    /// S. Where several are equally likely to the last bit, the one farthest from N/2 (and the
-    /// smaller of two as far), so that counting the bad indices instead mirrors the answer.
+    /// S. Among values that are equally likely to the last bit, it is the one farthest from N/2,
+    /// and of two equally far the smaller. Counting the bad indices instead therefore mirrors the
+    /// answer.
     pub good: u64,
     /// ln of the probability of the outcomes, in their order, given S.
     pub ln_likelihood: f64,
 }
 
-/// The number of good indices among `total` under which `outcomes` (folded, `0 ..= T/2`, in any
-/// order) are likeliest.
+/// Returns the number of good indices among `total` under which `outcomes` are likeliest.
+///
+/// `outcomes` are folded, `0 ..= T/2`, and in any order.
 ///
 /// # Errors
 ///
@@ -78,7 +82,7 @@ pub fn maximum_likelihood(
     likeliest(&likelihood, total)
 }
 
-/// As [`maximum_likelihood`].
+/// Returns the likeliest S, as [`maximum_likelihood`] does.
 pub(super) fn likeliest(
     likelihood: &Likelihood,
     total: u64,
@@ -86,8 +90,9 @@ pub(super) fn likeliest(
     Search::new(likelihood, total).run()
 }
 
-/// ln of the probability of `outcomes`, in their order, given `good` of `total` indices; negative
-/// infinity where it is zero.
+/// ln of the probability of `outcomes`, in their order, given `good` of `total` indices.
+///
+/// The result is negative infinity if the probability is zero.
 ///
 /// # Errors
 ///
@@ -104,11 +109,12 @@ pub fn ln_likelihood(
     Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
 }
 
-/// The most indices over which [`posterior`] is computed.
+/// The largest number of indices that [`posterior`] accepts.
 const MAX_POSTERIOR_IDS: u64 = 1 << 24;
 
-/// P(S | outcomes) for S = 0 ..= `total` and a prior that is uniform over them: N+1 numbers that
-/// sum to 1. Formed from logarithms, so that no number of outcomes underflows.
+/// P(S | outcomes) for S = 0 ..= `total` and a uniform prior: N+1 numbers that sum to 1.
+///
+/// The function adds logarithms, so that no number of outcomes underflows.
 ///
 /// # Errors
 ///
@@ -157,7 +163,7 @@ pub fn posterior(
 /// ln of the probability of outcomes, as a function of the phase.
 pub(super) struct Likelihood {
     pub(super) register: Register,
-    /// Outcome and how often, the most frequent first.
+    /// Pairs of an outcome and its number of occurrences, the most frequent first.
     pub(super) outcomes: Vec<(u64, f64)>,
 }
 
@@ -186,8 +192,10 @@ impl Likelihood {
             .sum()
     }
 
-    /// A bound of L over a cell, from its distances to the outcomes and to their mirror images;
-    /// exact only in not being exceeded. Stops as soon as it is below `floor`.
+    /// An upper bound of L over `cell`, from its distances to the outcomes and to their mirror
+    /// images.
+    ///
+    /// The sum stops as soon as it is below `floor`.
     pub(super) fn bound(&self, cell: u64, floor: f64) -> f64 {
         let size = self.register.size();
         let mut bound = 0.0;
@@ -245,7 +253,7 @@ impl<'a> Search<'a> {
     fn run(mut self) -> Result<MaximumLikelihood, CountingError> {
         let last = self.last_cell();
         for &(outcome, _) in &self.likelihood.outcomes {
-            // No cell lies above T/2; below it, the second walk starts.
+            // No cell lies above T/2. The cells below the outcome belong to the second walk.
             let mut cell = (outcome <= last).then_some(outcome);
             while let Some(current) = cell {
                 cell = self.step(current, true);
@@ -269,7 +277,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A cell's ends relative to the grid point of its number.
+    /// The ends of `cell`, in steps relative to the grid point of the same number.
     fn ends(&self, cell: u64) -> (f64, f64) {
         match self.likelihood.register.window {
             Window::Rect => (0.0, 1.0),
@@ -280,7 +288,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Looks at one cell; the next in the same direction, unless the walk ends here.
+    /// Searches one cell. Returns the next cell in the same direction, or `None` if the walk ends.
     fn step(&mut self, cell: u64, upwards: bool) -> Option<u64> {
         if self.visited.contains(&cell) {
             return None;
@@ -291,7 +299,7 @@ impl<'a> Search<'a> {
         }
         self.visited.insert(cell);
         let (low, high) = self.ends(cell);
-        // One integer beyond either end, so that no rounding loses one.
+        // Includes one integer beyond either end, so that rounding cannot lose one.
         let first = self.good_at(cell, low);
         let last = self.good_at(cell, high).saturating_add(1).min(self.total);
         if last - first <= FEW {
@@ -299,14 +307,14 @@ impl<'a> Search<'a> {
                 self.consider(good);
             }
         } else {
-            // The ends of the whole range, which a tie of roundings prefers.
+            // Tries the ends of the whole range: `consider` prefers them if rounding causes a tie.
             if first == 0 {
                 self.consider(0);
             }
             if last == self.total {
                 self.consider(last);
             }
-            // A tenth of the distance between integers is as fine as it need be.
+            // A tenth of the distance between integers is fine enough.
             let tolerance = (0.1 / (last - first) as f64).max(1e-10);
             let slack = 0.01 * self.shots;
             for (remainder, value) in self.peaks(cell, low, high, tolerance) {
@@ -315,7 +323,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        // Where the neighbouring cells hold no integer, on to the one that does.
+        // If the neighbouring cells hold no integer, the walk goes on to the first cell that does.
         if upwards {
             let next = (cell + 1).max(self.cell_of(last).min(self.last_cell()));
             (cell < self.last_cell()).then_some(next)
@@ -324,7 +332,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The largest S whose phase is not above the given one.
+    /// The largest S whose phase is at most `cell + remainder` steps.
     fn good_at(&self, cell: u64, remainder: f64) -> u64 {
         let steps = Double::from(cell) + Double::from(remainder);
         let theta = steps.scale(1.0 / self.likelihood.register.size() as f64);
@@ -355,7 +363,7 @@ impl<'a> Search<'a> {
         better
     }
 
-    /// The integers on either side of a peak, and on for as long as they improve.
+    /// Considers the integers on either side of a peak, and further ones while they improve.
     fn climb(&mut self, good: u64) {
         self.consider(good);
         let above = (good + 1).min(self.total);
@@ -366,7 +374,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// At most a few steps: where more would improve, neighbours differ by roundings only.
+    /// Considers further integers from `good` on while they improve, at most `FEW`.
+    ///
+    /// If more of them would improve, neighbours differ by rounding only.
     fn climb_from(&mut self, mut good: u64, step: impl Fn(u64) -> Option<u64>) {
         for _ in 0..FEW {
             match step(good).filter(|&next| next <= self.total) {
@@ -376,7 +386,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Where in the cell L has its peaks, and how high; at the least, the highest of them.
+    /// Places and values of the peaks of L in the cell, at least of the highest one.
     fn peaks(&self, cell: u64, low: f64, high: f64, tolerance: f64) -> Vec<(f64, f64)> {
         let value = |remainder: f64| {
             let value = self.likelihood.at(Phase::at(cell, remainder));
@@ -396,8 +406,8 @@ impl<'a> Search<'a> {
         for pair in edges.windows(2) {
             let (low, high) = (pair[0], pair[1]);
             if high - low < SLIVER {
-                // Between two zeros so close, no place gains more than a factor 4 a shot on the
-                // middle, if all else changes little.
+                // Between zeros this close, the likelihood exceeds its value in the middle by at
+                // most a factor of 4 per shot, if all other factors change little.
                 let middle = 0.5 * (low + high);
                 if value(middle) + 2.0 * self.shots >= self.best.ln_likelihood {
                     peaks.push(maximise(
@@ -409,7 +419,7 @@ impl<'a> Search<'a> {
                 }
                 continue;
             }
-            // Folding may leave several peaks: all that show on a grid are followed.
+            // Folding may leave several peaks, so the search follows all that show on a grid.
             let place = |i: usize| low + (high - low) * i as f64 / PLACES as f64;
             let values: Vec<f64> = (0..=PLACES).map(|i| value(place(i))).collect();
             for i in 0..=PLACES {
@@ -423,7 +433,9 @@ impl<'a> Search<'a> {
     }
 
     /// The sine window's zeros in a cell: `y +- (k + 1/2) T/(T+1)`, k = 1, 2, ..., around every
-    /// outcome y. Where phases do not fold, L is concave between them.
+    /// outcome y.
+    ///
+    /// Except for the effect of folding, L is concave between these zeros.
     fn zeros(&self, cell: u64, low: f64, high: f64) -> Vec<f64> {
         let size = self.likelihood.register.size() as f64;
         let ratio = size / (size + 1.0);
@@ -443,8 +455,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Brent's maximum of a unimodal function (*Algorithms for minimization without derivatives*,
-/// 1973, chapter 5): parabolas, and golden sections where they fail. Its place and its value.
+/// Maximises a unimodal function by Brent's method; returns the place and the value.
+///
+/// The method (*Algorithms for minimization without derivatives*, 1973, chapter 5) fits parabolas,
+/// and takes golden sections where a parabola fails.
 fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let mut best = low + GOLDEN * (high - low);
@@ -464,7 +478,8 @@ fn maximise(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: 
             let p = (best - third) * q - (best - second) * r;
             let q = 2.0 * (q - r);
             let (p, q) = if q > 0.0 { (-p, q) } else { (p, -q) };
-            // Comparisons with an overflown or undefined parabola are false: a golden section.
+            // An infinite or undefined parabola makes these comparisons false: a golden section
+            // follows.
             parabolic = p.abs() < (0.5 * q * before_last).abs()
                 && p > q * (low - best)
                 && p < q * (high - best);

@@ -1,16 +1,17 @@
-//! The look-up table of quantum supersampling: from what the phase register reads to the good
+//! The look-up table of quantum supersampling: from a reading of the phase register to good
 //! indices.
 //!
 //! Johnston (*Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan & Gimeno-Segovia,
-//! *Programming quantum computers*, 2019, chapter 11) tabulates P(y | S): a column for every
-//! reading y, a row for every S. A column's largest entry says which S is looked up, and its
-//! fraction of the column how much that can be trusted, his *confidence map*. The entries are known
-//! before anything is rendered, for they depend on N and the register alone.
+//! *Programming quantum computers*, 2019, chapter 11) tabulates P(y | S), with a column for every
+//! reading y and a row for every S. The look-up of y returns the S of the column's largest entry.
+//! That entry's fraction of the column measures how far the result can be trusted; Johnston calls
+//! it the *confidence map*. The entries depend on N and the register alone, so they are known
+//! before anything is rendered.
 //!
-//! Here y and T - y, whose columns are equal, are one column. A column is computed when it is first
-//! read. Where it has too many rows, they are gathered: near y all S of an eighth of a step are a
-//! row; farther away, where P oscillates and falls with the square of the distance, all S of a
-//! fifth of the distance, with P's mean over a step.
+//! Here y and T - y, whose columns are equal, share one column. A column is computed when it is
+//! first read. If it has too many rows, they are merged. Near y, all S within an eighth of a step
+//! form a row. Farther away, P oscillates and falls with the square of the distance. There all S
+//! within a fifth of the distance form a row, with P's mean over a step.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -23,27 +24,27 @@ use super::error::CountingError;
 use super::kernel::Register;
 use super::likelihood::maximum_likelihood;
 
-/// Up to this many indices every S is a row of its own.
+/// The largest number of indices at which every S has a row of its own.
 const FEW_IDS: u64 = 1024;
-/// Steps from y within which rows are not averages.
+/// Distance from y, in steps, within which rows are not averages.
 const NEAR: u64 = 16;
-/// Rows of a step there.
+/// Number of rows per step within that distance.
 const ROWS: u64 = 8;
-/// Columns that are kept.
+/// The largest number of columns in the cache.
 const KEPT: usize = 1 << 16;
 
-/// What the table says of one reading.
+/// The table's result for one reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// The likeliest S; the nearest, if y is not read for any S unless wrongly.
+    /// The likeliest S; the S nearest to y if only noise can produce y.
     pub good: u64,
-    /// ln P(y | S) of that S; negative infinity if y is not read for any S.
+    /// ln P(y | S) of that S; negative infinity if no S produces y.
     pub ln_likelihood: f64,
-    /// Its fraction of the column: the confidence map. The probability of this S if all were
-    /// equally likely before.
+    /// The entry's fraction of the column: the confidence map. It is the posterior probability of
+    /// this S under a uniform prior.
     pub certainty: f64,
-    /// The fractions S/N within the distance from y that is needed to gather the asked fraction of
-    /// the column.
+    /// The range of S/N of the rows nearest to y that hold the table's fraction `mass` of the
+    /// column.
     pub interval: (f64, f64),
 }
 
@@ -67,22 +68,24 @@ pub struct LookupTable {
     columns: Mutex<HashMap<u64, Column>>,
 }
 
-/// Some S next to each other.
+/// A range of consecutive S.
 struct Row {
     /// The distance from y, in steps.
     distance: f64,
-    /// The fractions that they span.
+    /// The smallest and the largest S/N of the row.
     low: f64,
     high: f64,
-    /// How many.
+    /// Number of values of S.
     count: f64,
-    /// P(y | S), in the mean.
+    /// The mean of P(y | S).
     probability: f64,
 }
 
 impl LookupTable {
-    /// A table whose intervals gather the fraction `mass`, in (0, 1), of a column, for a register
-    /// that reads what it should with probability `intact`, and otherwise anything.
+    /// Creates a table for `total` indices and a register of `phase_bits` bits.
+    ///
+    /// Intervals hold the fraction `mass`, in (0, 1), of a column. The register reads a value from
+    /// its distribution with probability `intact`, and otherwise any value.
     ///
     /// # Errors
     ///
@@ -135,7 +138,7 @@ impl LookupTable {
         rows.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         let (good, ln_likelihood) = match likeliest {
             Ok(best) => (best.good, best.ln_likelihood),
-            // Read wrongly, for no S is read like this: the nearest one.
+            // No S produces `y`, so noise has changed the reading: returns the nearest S.
             Err(CountingError::ImpossibleOutcomes) => {
                 let nearest = rows.first().map_or(0.0, |row| 0.5 * (row.low + row.high));
                 (
@@ -145,7 +148,8 @@ impl LookupTable {
             }
             Err(error) => return Err(error),
         };
-        // A destroyed register reads every y equally often, and all but the ends are two.
+        // A destroyed register reads all T values equally often. Folding merges two of them, except
+        // at the ends.
         let readings = if self.is_end(y) { 1.0 } else { 2.0 };
         let any = (1.0 - self.intact) * readings / self.register.size() as f64;
         let noisy = |probability: f64| self.intact * probability + any;
@@ -190,7 +194,7 @@ impl LookupTable {
         let first = (self.amplitude(low as f64) * self.total as f64) as u64;
         let last = (self.amplitude(high as f64) * self.total as f64) as u64;
         let mut near = if last - first <= FEW_IDS {
-            // A few beyond, so that there is a row where a step holds no S.
+            // Adds rows beyond, so that there is a row even if a step holds no S.
             let beyond = FEW_IDS / 2;
             let last = last.saturating_add(beyond).min(self.total);
             self.single(y, first.saturating_sub(beyond), last)
@@ -208,7 +212,7 @@ impl LookupTable {
         near
     }
 
-    /// A row for every S.
+    /// One row for every S in `first ..= last`.
     fn single(&self, y: u64, first: u64, last: u64) -> Vec<Row> {
         let row = |good| {
             let phase = Phase::of(good, self.total, &self.register);
@@ -224,7 +228,7 @@ impl LookupTable {
         (first..=last).map(row).collect()
     }
 
-    /// [`ROWS`] rows a step.
+    /// [`ROWS`] rows per step, from step `low` to step `high`.
     fn fine(&self, y: u64, low: u64, high: u64) -> Vec<Row> {
         let row = |(cell, part): (u64, u64)| {
             let at = |part: f64| cell as f64 + part / ROWS as f64;
@@ -243,7 +247,9 @@ impl LookupTable {
         (low..high).flat_map(parts).map(row).collect()
     }
 
-    /// Rows from the phase `start`, in steps, to `end`, each a fifth longer than its distance.
+    /// Adds rows from the phase `start` to the phase `end`, both in steps.
+    ///
+    /// The length of a row is a fifth of its distance from y, and at least one step.
     fn coarse(&self, y: u64, start: f64, end: f64, rows: &mut Vec<Row>) {
         let size = self.register.size() as f64;
         let mean = |distance: f64| {
@@ -278,13 +284,13 @@ impl LookupTable {
         }
     }
 
-    /// S/N of a phase in steps.
+    /// S/N for a phase of `steps` steps.
     fn amplitude(&self, steps: f64) -> f64 {
         let sine = libm::sin(PI * (steps / self.register.size() as f64));
         sine * sine
     }
 
-    /// How many S there are between two phases: `N (sin^2 b - sin^2 a)`, without cancellation.
+    /// Number of S between two phases: `N (sin^2 b - sin^2 a)`, without cancellation.
     fn ids(&self, from: f64, to: f64) -> f64 {
         let size = self.register.size() as f64;
         let sines = libm::sin(PI * ((to - from) / size)) * libm::sin(PI * ((to + from) / size));
@@ -306,8 +312,9 @@ mod tests {
         (0..=total).map(row).collect()
     }
 
-    /// Johnston's table for 4 x 4 subpixels and 4 phase qubits, and others, entry by entry: the
-    /// largest of each column, its fraction, and the rows around it.
+    /// Compares with Johnston's table for 4 x 4 subpixels and 4 phase qubits, and with other
+    /// tables, entry by entry: the largest entry of each column, its fraction, and the rows around
+    /// it.
     #[test]
     fn columns_are_those_of_the_whole_table() {
         for (total, bits) in [(16, 4), (16, 2), (64, 7), (1, 3), (7, 1), (1000, 5)] {
@@ -342,7 +349,7 @@ mod tests {
         }
     }
 
-    /// Gathered rows against all of them.
+    /// Compares merged rows with single rows.
     #[test]
     fn gathered_rows_are_worth_the_single_ones() {
         for (total, bits) in [(20_000, 4), (20_000, 9), (3000, 12), (5000, 8)] {
@@ -370,7 +377,7 @@ mod tests {
         }
     }
 
-    /// Registers and indices of any size: one reading is one column, quickly.
+    /// Computes columns for registers and numbers of indices of every magnitude.
     #[test]
     fn no_size_is_too_large() {
         for total in [1, 2, 1000, 1 << 30, 1 << 60] {
@@ -385,7 +392,8 @@ mod tests {
                         assert!(0.0 <= low && low <= fraction && fraction <= high && high <= 1.0);
                         assert!((0.0..=1.0).contains(&column.certainty));
                         if intact == 1.0 && bits == 30 && total == 1 << 60 && y == half / 5 {
-                            // Two steps to either side, of pi sin(2 pi / 10) each.
+                            // The interval has two steps on either side, of pi sin(2 pi / 10) / T
+                            // each.
                             assert!((high - low) * (1 << 30) as f64 > 7.0);
                             assert!((high - low) * ((1 << 30) as f64) < 8.5);
                         }

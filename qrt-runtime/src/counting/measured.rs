@@ -1,14 +1,14 @@
-//! The qubits of the index once the phase register has been read.
+//! The index register after the phase register has been read.
 //!
 //! Before the inverse Fourier transform the phase register holds j with probability `w_j^2`, and
-//! the index's state has been turned j times: whoever measures it finds a good index with
-//! probability
+//! the Grover iterate has acted j times on the index. A measurement of the index gives a good index
+//! with probability
 //!
 //! ```text
 //! sum_j w_j^2 sin^2((2j + 1) pi theta) = 1/2 - 1/2 sum_j w_j^2 cos((4j + 2) pi theta),
 //! ```
 //!
-//! whatever is done to the phase register. The cosines add up in closed form.
+//! for any operation on the phase register. The sum of cosines has a closed form.
 
 use qrt_core::scene::Window;
 use std::f64::consts::{PI, TAU};

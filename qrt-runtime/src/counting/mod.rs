@@ -1,17 +1,16 @@
-//! Quantum counting: how many indices the oracle calls good, as the paper's counting circuit would
-//! find out.
+//! Quantum counting: the number of good indices of an oracle, as the paper's circuit measures it.
 //!
-//! After the oracle, the Grover operator lives in the plane of the good and the bad indices, where
-//! it turns by `theta` turns, `theta = asin(sqrt(S/N))/pi`. Everything that its phase estimation
-//! can measure follows from S, N and the phase register alone: this module draws from that
-//! distribution exactly, without a state vector, for registers of up to 40 bits.
+//! The Grover operator acts in the plane of the good and the bad indices, where it rotates by
+//! `theta` turns, `theta = asin(sqrt(S/N))/pi`. The distribution of its phase estimation depends
+//! only on S, N and the phase register. This module draws from that distribution exactly, without a
+//! state vector, for registers of up to 40 bits.
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;
 //! * [`maximum_likelihood`]: the paper's inference, over every S in `0 ..= N`;
-//! * [`posterior_mean`]: the mean of the same data's posterior, and its interval;
-//! * [`LookupTable`]: that distribution the other way round, from an outcome to S;
+//! * [`posterior_mean`]: the posterior mean for the same outcomes, and its interval;
+//! * [`LookupTable`]: the same distribution inverted, from an outcome to S;
 //! * [`Comparators`]: from colours to good indices, and from amplitudes to pixels;
-//! * [`Stratum`]: ranges of thresholds that are counted one by one.
+//! * [`Stratum`]: ranges of thresholds, each of which is counted on its own.
 
 mod angle;
 pub(crate) mod binomial;

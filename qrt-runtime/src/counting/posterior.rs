@@ -1,17 +1,17 @@
 //! The posterior over the number of good indices, and its mean.
 //!
-//! The prior is uniform over S in `0 ..= N`. Up to 2^12 indices, sums go over every S. Beyond, over
-//! cells: the steps between neighbouring outcomes y of the phase register.
+//! The prior is uniform over S in `0 ..= N`. Up to 2^12 indices, sums go over every S. Beyond that
+//! number, they go over cells: the steps between neighbouring outcomes y of the phase register.
 //!
-//! * *Near* an observed outcome, cell by cell: the integers one by one where they are few,
-//!   otherwise by Gauss and Legendre's quadrature in theta, in panels as fine as B repetitions
-//!   demand.
-//! * *Far* from all outcomes P(y) is a smooth envelope times a fast square of a sine: with B = 1
-//!   the envelope falls with the square of the distance only, and what lies beyond any number of
-//!   cells counts. There the sine is averaged over a step, and the envelope integrated over panels
-//!   that grow with the distance.
+//! * *Near* an observed outcome, the sum goes cell by cell. It adds the integers one by one if
+//!   there are few. Otherwise it uses Gauss-Legendre quadrature in theta, in panels as fine as B
+//!   repetitions require.
+//! * *Far* from all outcomes, P(y) is a smooth envelope times the square of a fast sine. With B = 1
+//!   the envelope falls only with the square of the distance, so the mass beyond any number of
+//!   cells matters. There the sine is averaged over a step, and the envelope is integrated over
+//!   panels that grow with the distance.
 //!
-//! Logarithms throughout, relative to the likeliest S; cells that have less than exp(-60) of the
+//! All values are logarithms relative to the likeliest S. Cells that have less than exp(-60) of the
 //! likeliest are left out.
 
 use qrt_core::scene::Window;
@@ -23,17 +23,17 @@ use super::double::{self, Double};
 use super::error::CountingError;
 use super::likelihood::{Likelihood, likeliest};
 
-/// Up to here, every S is summed over.
+/// The largest number of indices at which the sum goes over every S.
 const FEW_IDS: u64 = 1 << 12;
-/// Cells on either side of an outcome that are near.
+/// Number of cells on either side of an outcome that count as near.
 const NEAR: u64 = 48;
-/// Up to this many integers of a far panel are summed over.
+/// The largest number of integers of a far panel that are summed one by one.
 const FEW_FAR: f64 = 2048.0;
-/// Up to this many of the first and the last cell.
+/// The largest number of integers of the first or last cell that are summed one by one.
 const FEW_AT_ENDS: u64 = 1024;
-/// ln of what is left out, relative to the likeliest.
+/// ln of the largest likelihood that is left out, relative to the likeliest.
 const NEGLIGIBLE: f64 = -60.0;
-/// Gauss and Legendre's nodes and weights of order 8, on [-1, 1]; the other half mirrors.
+/// Gauss-Legendre nodes and weights of order 8 on [-1, 1]; the other half mirrors these.
 const NODES: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -46,23 +46,24 @@ const NODES: [(f64, f64); 4] = [
 pub struct Posterior {
     /// The posterior's mean of S/N, in [0, 1].
     pub mean: f64,
-    /// The likeliest values of S/N that have the asked posterior mass, and what lies between them.
+    /// The range of the likeliest values of S/N that together hold the posterior mass `content`.
     pub interval: (f64, f64),
 }
 
-/// A stretch of amplitudes, and what it holds of the posterior.
+/// A range of amplitudes and its part of the posterior.
 struct Piece {
     low: f64,
     high: f64,
-    /// Integers that it stands for.
+    /// Number of integers that the piece stands for.
     integers: f64,
     mass: f64,
-    /// Integral of the amplitude.
+    /// Integral of the amplitude times the mass.
     moment: f64,
 }
 
-/// The posterior mean of S/N, for a prior uniform over S in `0 ..= N`, and the interval of highest
-/// density that holds it with probability `content`.
+/// The posterior mean of S/N and the interval of highest density.
+///
+/// The prior is uniform over S in `0 ..= N`. The interval contains S/N with probability `content`.
 ///
 /// # Errors
 ///
@@ -137,10 +138,10 @@ impl Integral<'_> {
         self.likelihood.register.size() / 2
     }
 
-    /// S/N at `steps` of the register, to f64.
+    /// S/N at `steps` of the register, to the precision of an `f64`.
     fn amplitude(&self, steps: f64) -> f64 {
         let half = self.half() as f64;
-        // Of the nearer end, whose distance is the more precise.
+        // Computes from the nearer end, to which the distance is more precise.
         if steps <= 0.5 * half {
             let sine = libm::sin(0.5 * PI * (steps / half));
             sine * sine
@@ -150,15 +151,17 @@ impl Integral<'_> {
         }
     }
 
-    /// How many integers S lie in a step of the register there.
+    /// Number of integers S per step of the register at `steps`.
     fn density(&self, steps: f64) -> f64 {
         let half = self.half() as f64;
         let place = steps.min(half - steps) / half;
         self.total as f64 * (0.5 * PI / half) * libm::sin(PI * place)
     }
 
-    /// The largest S whose phase is not above this grid point, and what is above it of N times the
-    /// amplitude there.
+    /// The largest S whose phase is at most the grid point `cell`, and its distance to the grid
+    /// point.
+    ///
+    /// The distance is N times the amplitude at the grid point, less S.
     fn good_below(&self, cell: u64) -> (u64, f64) {
         let theta = Double::from(cell).scale(1.0 / self.likelihood.register.size() as f64);
         let place = double::sine_squared(theta) * Double::from(self.total);
@@ -167,8 +170,11 @@ impl Integral<'_> {
         (good, rest.hi)
     }
 
-    /// From a grid point to the middle between the integers on either side of it, in steps: where
-    /// sums over the integers of a cell are split, and so integrals that stand for them.
+    /// Distance in steps from the grid point `cell` to the middle between the integers on either
+    /// side.
+    ///
+    /// Sums over the integers of neighbouring cells divide there, and so do the integrals that
+    /// replace them.
     fn split(&self, cell: u64) -> f64 {
         if cell == 0 || cell == self.half() {
             return 0.0;
@@ -222,10 +228,11 @@ impl Integral<'_> {
         self.far(end, half);
     }
 
-    /// Whether the cell holds so little that it may be left out.
+    /// True if the likelihood in `cell` is low enough to leave the cell out.
     fn is_negligible(&self, cell: u64) -> bool {
         let floor = self.top + NEGLIGIBLE;
-        // The bound is of the cells of the window's own division: half a step may be missing.
+        // `bound` takes cells of the window's own division. Those of the sine window are centred on
+        // grid points, so two of them cover this cell.
         let neighbours = match self.likelihood.register.window {
             Window::Rect => cell..=cell,
             Window::Sine => cell..=(cell + 1).min(self.half()),
@@ -244,14 +251,14 @@ impl Integral<'_> {
         if range.is_empty() {
             return;
         }
-        // At the ends of the range a sum differs from its integral by its slope, too.
+        // At the ends of the range, a sum also differs from its integral by its slope.
         let is_end = cell == 0 || cell + 1 == self.half();
         let few = if is_end { FEW_AT_ENDS } else { 16 * panels };
         if range.end() - range.start() < few {
             self.integers(*range.start(), *range.end());
             return;
         }
-        // Sums over integers exceed their integral by half of either end's.
+        // A sum over integers exceeds its integral by half of the term at either end.
         for end in [0, self.total] {
             if range.contains(&end) {
                 self.integers(end, end);
@@ -269,10 +276,10 @@ impl Integral<'_> {
         }
     }
 
-    /// A panel of a near cell.
+    /// Integrates over a panel of a near cell.
     fn panel(&mut self, cell: u64, start: f64, width: f64) {
         let value = |place: f64| self.likelihood.at(Phase::at(cell, place));
-        // Many repetitions leave most of a cell empty.
+        // After many repetitions most of a cell is negligible.
         let is_empty =
             |fraction: f64| value(start + fraction * width) < self.top + NEGLIGIBLE - 8.0;
         if self.shots > 64.0 && [0.1, 0.5, 0.9].into_iter().all(is_empty) {
@@ -285,8 +292,8 @@ impl Integral<'_> {
         self.pieces.push(piece);
     }
 
-    /// Integrates over the integers between two places; `likelihood` is asked at offsets in
-    /// [-1, 1].
+    /// Integrates over the integers between `low` and `high`; `likelihood` takes offsets in [-1,
+    /// 1].
     fn quadrature(&self, low: f64, high: f64, likelihood: impl Fn(f64) -> f64) -> Piece {
         let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
         let (mut mass, mut moment, mut integers) = (0.0, 0.0, 0.0);
@@ -309,13 +316,13 @@ impl Integral<'_> {
         }
     }
 
-    /// The cells `first .. last`, which are far from all outcomes.
+    /// Integrates over the cells `first .. last`, which are far from all outcomes.
     fn far(&mut self, first: u64, last: u64) {
-        // Between two outcomes the bound is convex: what is negligible at both ends is so within.
+        // Between two outcomes the bound is convex: if both ends are negligible, so is the inside.
         if first >= last || (self.is_negligible(first) && self.is_negligible(last - 1)) {
             return;
         }
-        // The gap's ends are as far from the outcomes as near cells reach, or ends of the range.
+        // Each end of the gap is `NEAR` cells away from an outcome, or is an end of the range.
         let mut start = first;
         while start < last {
             let left = if first == 0 {
@@ -328,7 +335,8 @@ impl Integral<'_> {
             } else {
                 last - start + NEAR
             };
-            // No wider than half of the distance to the nearest outcome, also from its far end.
+            // A panel is at most half as wide as the distance to the nearest outcome, from either
+            // end.
             let distance = left.min(right / 2).min(self.half());
             let end = start + (distance / 2).max(1);
             let end = if end + NEAR / 2 > last { last } else { end };
@@ -356,8 +364,10 @@ impl Integral<'_> {
         self.pieces.push(piece);
     }
 
-    /// The likelihood around `place`, averaged over a step: exactly, up to 32 repetitions, for then
-    /// it is a trigonometric polynomial of their degree.
+    /// The likelihood around `place`, averaged over a step.
+    ///
+    /// Within a step the likelihood is a trigonometric polynomial whose degree is the number of
+    /// repetitions. Below 32 repetitions the number of points makes the average exact.
     fn average(&self, place: f64) -> f64 {
         let register = &self.likelihood.register;
         let size = register.size() as f64;

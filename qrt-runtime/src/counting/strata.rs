@@ -1,17 +1,18 @@
-//! Strata of the comparator: ranges of thresholds that are counted one by one.
+//! Strata of the comparator: ranges of thresholds, each of which is counted on its own.
 //!
 //! A path whose colour exceeds `count` of the `C = 2^c` thresholds is good with the comparators
-//! `0..count`. Of a range of thresholds `start..start + length` that is
-//! `clamp(count - start, 0, length)`, so that the good indices of a partition's strata add up to S:
+//! `0..count`. A range of thresholds `start..start + length` contains
+//! `clamp(count - start, 0, length)` of them, so the good indices of a partition's strata add up to
+//! S:
 //!
 //! ```text
 //! S/N = sum_k w_k a_k,    w_k = length_k / C,    a_k the fraction of good indices of stratum k.
 //! ```
 //!
-//! Strata here are unions of *octaves*, which halve what is left of the range: octave 0 is the
-//! threshold 0, and octave o the thresholds `2^(o-1)..2^o`. A comparator in octave o has its bit
-//! `o - 1` set and none above it: the circuit of a stratum has an X, or nothing, where that of the
-//! whole has a Hadamard.
+//! The strata are unions of *octaves*, each of which is half of the rest of the range: octave 0 is
+//! the threshold 0, and octave o the thresholds `2^(o-1)..2^o`. A comparator in octave o has its
+//! bit `o - 1` set and none above it. For these bits, the circuit of a stratum has an X or nothing
+//! where the circuit of the whole range has a Hadamard.
 
 use std::ops::Range;
 
@@ -29,7 +30,7 @@ pub struct Stratum {
 }
 
 impl Stratum {
-    /// All thresholds of a comparator of so many bits.
+    /// All thresholds of a comparator of `bits` bits.
     pub fn whole(bits: u32) -> Self {
         Self {
             first: 0,
@@ -37,8 +38,10 @@ impl Stratum {
         }
     }
 
-    /// The range of `2^bits` thresholds in `strata` parts, from the darkest: the last is its upper
-    /// half, the one before it the upper half of the rest, and so on. Not more than `bits + 1`.
+    /// Splits the range of `2^bits` thresholds into `strata` parts, from the darkest.
+    ///
+    /// The last part is the upper half of the range, the part before it the upper half of the rest,
+    /// and so on. There are at most `bits + 1` parts.
     pub fn halving(strata: u32, bits: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let rest = bits + 1 - (strata.clamp(1, bits + 1) - 1);
         (rest..bits + 2).map(move |end| Self {
@@ -47,31 +50,33 @@ impl Stratum {
         })
     }
 
-    /// Its octaves.
+    /// The octaves of the stratum.
     pub(crate) fn octaves(self) -> Range<usize> {
         self.first as usize..self.end as usize
     }
 
-    /// Its thresholds.
+    /// The thresholds of the stratum.
     pub fn thresholds(self) -> Range<u64> {
         let start = |octave: u32| (1_u64 << octave) >> 1;
         start(self.first)..start(self.end)
     }
 
-    /// How many thresholds it has.
+    /// Number of thresholds in the stratum.
     pub fn length(self) -> u64 {
         let Range { start, end } = self.thresholds();
         end - start
     }
 
-    /// Of `count` good comparators, those in the stratum.
+    /// Number of good comparators in the stratum, for a colour that exceeds `count` thresholds.
     pub fn good(self, count: u64) -> u64 {
         let Range { start, end } = self.thresholds();
         count.clamp(start, end) - start
     }
 
-    /// Which of the comparator's bits are the same in the whole stratum, from the lowest: of these
-    /// only the lowest may be 1, and whether it is.
+    /// The comparator's bits that are equal in the whole stratum, and whether the lowest of them is
+    /// 1.
+    ///
+    /// All higher ones are 0.
     pub fn fixed_bits(self, bits: u32) -> (Range<u32>, bool) {
         let free = if self.first == 0 {
             self.end
@@ -82,8 +87,9 @@ impl Stratum {
     }
 }
 
-/// How many thresholds the colours of paths exceed, as far as strata need it: by the length of the
-/// count in bits, how many paths have one, and the sum of their counts.
+/// Numbers of thresholds that the colours of paths exceed, summarised as strata need them.
+///
+/// For each length in bits of a path's count: the number of paths and the sum of their counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Octaves {
     bits: u32,
@@ -92,7 +98,7 @@ pub struct Octaves {
 }
 
 impl Octaves {
-    /// Of no paths yet, under a comparator of so many bits.
+    /// Creates a summary of no paths, for a comparator of `bits` bits.
     pub fn new(bits: u32) -> Self {
         // The largest count, 2^bits, is bits + 1 long.
         let lengths = bits as usize + 2;
@@ -103,12 +109,12 @@ impl Octaves {
         }
     }
 
-    /// The comparator's bits.
+    /// Number of bits of the comparator.
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// Adds a path whose colour exceeds `count` thresholds, at most all.
+    /// Adds a path whose colour exceeds `count` thresholds, at most `2^bits`.
     #[inline]
     pub fn add(&mut self, count: u64) {
         let length = (u64::BITS - count.leading_zeros()) as usize;
@@ -116,7 +122,7 @@ impl Octaves {
         self.sums[length] += count;
     }
 
-    /// Adds other paths, under the same comparator.
+    /// Adds the paths of `other`, which has the same comparator.
     pub fn append(&mut self, other: &Self) {
         if self.paths.is_empty() {
             self.clone_from(other);
@@ -128,7 +134,9 @@ impl Octaves {
         }
     }
 
-    /// The same comparator's, of other paths, as [`Octaves::by_length`] tells of them.
+    /// A summary with the same comparator and the pairs that `next` returns, one per length.
+    ///
+    /// The order is that of [`Octaves::by_length`]. The result is `None` if `next` ends early.
     pub(crate) fn with_lengths(
         &self,
         mut next: impl FnMut() -> Option<(u64, u64)>,
@@ -140,20 +148,21 @@ impl Octaves {
         Some(octaves)
     }
 
-    /// By length of their counts in bits: how many paths, and the sum of their counts.
+    /// The number of paths and the sum of their counts, for each length of the counts in bits.
     pub(crate) fn by_length(&self) -> impl Iterator<Item = (u64, u64)> {
         self.paths.iter().copied().zip(self.sums.iter().copied())
     }
 
-    /// How many paths there are.
+    /// Number of paths.
     pub fn paths(&self) -> u64 {
         self.paths.iter().sum()
     }
 
-    /// The good indices of each octave, from the darkest.
+    /// Number of good indices in each octave, from the darkest.
     pub fn good(&self) -> Vec<u64> {
         let mut longer: u64 = self.paths.iter().skip(1).sum();
-        // Of thresholds below 2^o: the counts up to o bits long, and all of them for the others.
+        // Good indices below threshold 2^o: a count of up to o bits adds itself, a longer count
+        // 2^o.
         let (mut below, mut sum) = (0, 0);
         (0..=self.bits as usize)
             .map(|octave| {
@@ -209,7 +218,7 @@ mod tests {
                             .sum();
                         prop_assert_eq!(good[part.octaves()].iter().sum::<u64>(), one_by_one);
                         prop_assert_eq!(counts.iter().map(|&c| part.good(c)).sum::<u64>(), one_by_one);
-                        // The bits that are fixed are those that all its comparators have in common.
+                        // All comparators of the stratum agree in the fixed bits.
                         let (fixed, lowest) = part.fixed_bits(bits);
                         for y in thresholds {
                             for bit in fixed.clone() {

@@ -1,12 +1,14 @@
-//! Tests of what counting promises.
+//! Tests of counting.
 
 mod draws;
 mod high_precision;
 mod inference;
 mod posterior_mean;
 
-/// Pearson's statistic over bins of at least ten expected draws, within five standard deviations
-/// of its mean (a normal deviate by Wilson and Hilferty).
+/// Checks Pearson's statistic over bins of at least ten expected draws.
+///
+/// It may exceed its mean by at most five standard deviations (a normal deviate by Wilson and
+/// Hilferty).
 pub(crate) fn chi_square_is_plausible(counts: &[u64], probabilities: &[f64]) {
     assert_eq!(counts.len(), probabilities.len());
     let draws = counts.iter().sum::<u64>() as f64;

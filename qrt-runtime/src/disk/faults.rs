@@ -1,4 +1,5 @@
-//! Faults for tests: what is done below a watched folder, by any thread, can be made to fail.
+//! Fault injection for tests: any operation below a watched folder, in any thread, can be made to
+//! fail.
 
 use super::Operation;
 use std::collections::BTreeMap;
@@ -9,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 static WATCHED: Mutex<Vec<Arc<Watch>>> = Mutex::new(Vec::new());
 
-/// A watched folder, until it is dropped.
+/// A watched folder. Dropping it ends the watch.
 pub(crate) struct Watched(Arc<Watch>);
 
 struct Watch {
@@ -19,36 +20,36 @@ struct Watch {
 
 struct State {
     plan: Plan,
-    /// Operations so far.
+    /// The operations so far.
     done: Vec<Operation>,
     disk: Durable,
 }
 
-/// What is to go wrong.
+/// The fault to inject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Plan {
     Nothing,
-    /// The operation of this number, from 0, fails.
+    /// The operation of this number, counted from 0, fails.
     Fail(usize),
-    /// From this one on all fail, and nothing reaches the disk.
+    /// The operation of this number and all later ones fail, and nothing more reaches the disk.
     Cut(usize),
 }
 
-/// A file: its number on the disk, and how many files had that number before it.
+/// A file: its inode number, and how many files were created with that inode number while watched.
 type Id = (u64, u32);
 
-/// The names of a folder's files, and their contents.
+/// The names of the files in a folder, and the contents of each file.
 type Listed = (BTreeMap<PathBuf, Id>, BTreeMap<Id, Vec<u8>>);
 
-/// What a disk has that loses its power: the folder's names as they were synced, and of each file
-/// what was.
+/// The durable state of a folder, which survives a power cut: its names at their last sync, and
+/// each file's contents at the last sync of that file.
 #[derive(Clone, Default)]
 struct Durable {
     names: BTreeMap<PathBuf, Id>,
     contents: BTreeMap<Id, Vec<u8>>,
-    /// How often each number was given to a new file.
+    /// Number of files created with each inode number.
     created: BTreeMap<u64, u32>,
-    /// What there was when the power was cut, synced or not.
+    /// The folder at the time of the power cut, synced or not.
     seen: Option<Listed>,
 }
 
@@ -84,7 +85,7 @@ fn number(_: &fs::Metadata) -> u64 {
 }
 
 impl Watched {
-    /// Watches a folder, whose files are all durable.
+    /// Watches `folder`, and takes all its present files as durable.
     pub(crate) fn new(folder: &Path, plan: Plan) -> Self {
         let folder = fs::canonicalize(folder).unwrap();
         let mut disk = Durable::default();
@@ -96,13 +97,14 @@ impl Watched {
         Self(watch)
     }
 
-    /// What was done, or was to be done.
+    /// All operations so far, including those that failed.
     pub(crate) fn done(&self) -> Vec<Operation> {
         locked(&self.0.state).done.clone()
     }
 
-    /// Ends the watch, and leaves in the folder what a power cut leaves: what was synced and nothing
-    /// else; or where `luck` says so for a name or a file's contents, what was not.
+    /// Ends the watch, and changes the folder to its state after a power cut: only synced names and
+    /// contents remain. For each name and each file's contents, `luck` decides whether an unsynced
+    /// change survives too.
     pub(crate) fn after_the_cut(self, mut luck: impl FnMut() -> bool) {
         let folder = self.0.folder.clone();
         let disk = locked(&self.0.state).disk.clone();
@@ -120,7 +122,7 @@ impl Watched {
             };
             let synced = disk.contents.get(file).cloned().unwrap_or_default();
             let written = written.get(file).unwrap_or(&synced);
-            // Of what was not synced, a beginning.
+            // An unsynced write may reach the disk whole, or only its beginning.
             let bytes = match luck() {
                 true if luck() => &written[..],
                 true => &written[..synced.len().midpoint(written.len()).min(written.len())],
@@ -144,7 +146,7 @@ fn watching(path: &Path) -> Option<Arc<Watch>> {
     found.cloned()
 }
 
-/// Counts an operation, which fails if it is to.
+/// Records an operation, and fails if the plan says so.
 pub(super) fn begin(operation: Operation, path: &Path) -> io::Result<()> {
     let own = path.join("file");
     let path = if operation == Operation::SyncFolder {
@@ -175,7 +177,7 @@ pub(super) fn begin(operation: Operation, path: &Path) -> io::Result<()> {
     }
 }
 
-/// Takes down that a file's contents are durable.
+/// Records that a file's contents are durable.
 pub(super) fn synced(path: &Path, file: &File) {
     use std::io::{Read as _, Seek as _, SeekFrom};
     let Some(watch) = watching(path) else {
@@ -192,7 +194,7 @@ pub(super) fn synced(path: &Path, file: &File) {
     state.disk.contents.insert(id, bytes);
 }
 
-/// Takes down that there is a new file.
+/// Records that a file was created.
 pub(super) fn created(path: &Path, file: &File) {
     let Some(watch) = watching(path) else {
         return;

@@ -1,7 +1,7 @@
-//! The file system, as far as results and checkpoints use it: each operation that can fail, once.
+//! File operations of results and checkpoints; each operation that can fail has one function here.
 //!
-//! Links are never followed here: what a path leads to is found beforehand, by [`Place`]. Under test,
-//! any operation can be made to fail, or the power to be cut before it: see `faults`.
+//! These functions never follow links: [`Place`] resolves a path beforehand. A test can make any
+//! operation fail, or cut the power before it: see `faults`.
 
 #[cfg(test)]
 pub(crate) mod faults;
@@ -15,7 +15,7 @@ use std::fs::{self, File, Metadata, OpenOptions, Permissions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// What is done to files.
+/// An operation on a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(test, derive(PartialOrd, Ord))]
 pub(crate) enum Operation {
@@ -34,15 +34,15 @@ pub(crate) enum Operation {
 #[cfg(test)]
 use faults::begin;
 
-/// Before an operation on the file or folder at a path: under test, it may fail.
+/// Called before an operation on the file or folder at a path. In tests, it may fail.
 #[cfg(not(test))]
 #[expect(clippy::unnecessary_wraps, reason = "tests have another")]
 fn begin(_: Operation, _: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether an error of locking says that the file system has no locks. Some of Linux's network file systems
-/// say so by ENOLCK, 37, which has no kind.
+/// Returns whether a locking error means that the file system has no locks. Some of Linux's network
+/// file systems return ENOLCK, 37, which has no [`ErrorKind`].
 pub(crate) fn has_no_locks(error: &io::Error) -> bool {
     let enolck = cfg!(target_os = "linux") && error.raw_os_error() == Some(37);
     error.kind() == ErrorKind::Unsupported || enolck
@@ -52,20 +52,20 @@ pub(crate) fn has_no_locks(error: &io::Error) -> bool {
 #[derive(Debug)]
 pub struct DiskFile {
     file: File,
-    /// The name under which it was opened, or that it was given since.
+    /// The name under which the file was opened, or its last name since.
     path: PathBuf,
 }
 
-/// Who has a file's lock.
+/// The holder of a file's lock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lock {
     Ours,
     Others,
-    /// Some network file systems have no locks.
+    /// No lock: some network file systems have none.
     None,
 }
 
-/// Makes a file where there is none, nor a link.
+/// Creates a file; an error if a file or a link is there.
 pub(crate) fn create_new(path: &Path) -> io::Result<DiskFile> {
     begin(Operation::Create, path)?;
     let mut options = OpenOptions::new();
@@ -76,15 +76,16 @@ pub(crate) fn create_new(path: &Path) -> io::Result<DiskFile> {
     Ok(DiskFile::new(file, path))
 }
 
-/// So that a name that became a link is not followed, and of one that became a pipe no writer is waited for.
+/// Flags that refuse a name that has become a link, and don't wait for the writer of a pipe.
 #[cfg(unix)]
 const OPEN_FLAGS: i32 = libc::O_NOFOLLOW | libc::O_NONBLOCK;
-/// How often the file of a name is opened that changes meanwhile.
+/// Number of attempts to open a file whose name changes meanwhile.
 const ATTEMPTS: u32 = 64;
 
-/// Opens the regular file at `path`, or makes it where that is asked for and there is none, and locks it
-/// against other processes until it is closed. None if another has it; of one that was removed or replaced
-/// before it was locked, what has its name is opened.
+/// Opens the regular file at `path` and locks it against other processes until it is closed.
+/// Creates the file if there is none and `create` is set. If the file is removed or replaced before
+/// it is locked, opens the file that now has the name. `None` if another process has the lock, or
+/// after too many attempts.
 pub(crate) fn open_locked(path: &Path, create: bool) -> io::Result<Option<DiskFile>> {
     for _ in 0..ATTEMPTS {
         let file = match open(path, true) {
@@ -93,7 +94,7 @@ pub(crate) fn open_locked(path: &Path, create: bool) -> io::Result<Option<DiskFi
         };
         let file = match file {
             Ok(file) => file,
-            // It was made or removed meanwhile.
+            // Another process made or removed the file in the meantime: try again.
             Err(error)
                 if create && error.kind() == ErrorKind::NotFound && folder(path).is_dir() =>
             {
@@ -112,13 +113,13 @@ pub(crate) fn open_locked(path: &Path, create: bool) -> io::Result<Option<DiskFi
     Ok(None)
 }
 
-/// Opens a regular file that is there; a link or a device is an error of the kind
+/// Opens an existing regular file; for a link or a device the error has the kind
 /// [`ErrorKind::InvalidInput`].
 pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     let irregular = || io::Error::new(ErrorKind::InvalidInput, "is no regular file");
     begin(Operation::Open, path)?;
     let before = fs::symlink_metadata(path)?;
-    // A pipe would be waited for, and a device may do anything.
+    // Opening a pipe may wait for ever, and opening a device may have side effects.
     if !before.is_file() {
         return Err(irregular());
     }
@@ -127,12 +128,12 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, OPEN_FLAGS);
     let file = match options.open(path) {
-        // It became a link.
+        // The name has become a link.
         #[cfg(unix)]
         Err(error) if error.raw_os_error() == Some(libc::ELOOP) => return Err(irregular()),
         opened => opened?,
     };
-    // The name may have got another file in between.
+    // Another process may have given the name to another file in between.
     let opened = file.metadata()?;
     if !opened.is_file() || Identity::of(&opened) != Identity::of(&before) {
         return Err(match fs::symlink_metadata(path) {
@@ -144,8 +145,8 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     Ok(DiskFile::new(file, path))
 }
 
-/// Opens a regular file to be read. Pipes, which may never end, and devices are refused, before they are
-/// opened.
+/// Opens a regular file for reading. Pipes, which may never end, and devices are refused before
+/// they are opened.
 ///
 /// ```
 /// # #[cfg(unix)] {
@@ -155,7 +156,7 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
 /// ```
 ///
 /// # Errors
-/// It cannot be opened, or is no regular file.
+/// If the file cannot be opened, or is not a regular file.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     let irregular = || {
         Err(io::Error::new(
@@ -174,18 +175,18 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     }
 }
 
-/// The bytes of a regular file: [`open_regular`].
+/// Reads a regular file, opened by [`open_regular`].
 ///
 /// # Errors
-/// It cannot be read, or is no regular file.
+/// If the file cannot be read, or is not a regular file.
 pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open_regular(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// The same error of making a file at `path`, with the name of its folder where the folder takes no new
-/// files.
+/// Adds the name of the folder to an `error` of creating a file at `path`, if the folder accepts no
+/// new files.
 pub fn naming_folder(path: &Path, error: io::Error) -> io::Error {
     use ErrorKind::{NotFound, PermissionDenied, ReadOnlyFilesystem};
     if !matches!(
@@ -205,8 +206,8 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     fs::remove_file(path)
 }
 
-/// Makes the names in the folder of `path` durable. Where folders can't be opened or have nothing
-/// to make durable, there is nothing to be done.
+/// Makes the names in the folder of `path` durable. Does nothing where folders can't be opened or
+/// synced.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     let folder = folder(path);
     begin(Operation::SyncFolder, folder)?;
@@ -237,10 +238,11 @@ impl DiskFile {
         Self { file, path }
     }
 
-    /// A device or a pipe, which is written to as it is.
+    /// Opens a device or a pipe for writing.
     pub(crate) fn device(path: &Path) -> io::Result<Self> {
         begin(Operation::Open, path)?;
-        // What a shell has led into a file begins where others have ended.
+        // Append: the shell may have redirected the device into a file that others write to as
+        // well.
         let file = OpenOptions::new().append(true).open(path)?;
         Ok(Self::new(file, path))
     }
@@ -249,7 +251,7 @@ impl DiskFile {
         self.file.metadata()
     }
 
-    /// Gives it another name, in place of a file that has it.
+    /// Renames the file, and replaces a file that has the new name.
     pub(crate) fn rename(&mut self, to: &Path) -> io::Result<()> {
         begin(Operation::Rename, &self.path)?;
         fs::rename(&self.path, to)?;
@@ -257,7 +259,7 @@ impl DiskFile {
         Ok(())
     }
 
-    /// Whether the name under which it was opened is still this file's.
+    /// Returns whether the file still has the name under which it was opened.
     pub(crate) fn has_its_name(&self) -> io::Result<bool> {
         match fs::symlink_metadata(&self.path) {
             Ok(found) => {
@@ -269,7 +271,7 @@ impl DiskFile {
         }
     }
 
-    /// Locks it against other processes until it is closed.
+    /// Locks the file against other processes until it is closed.
     pub(crate) fn try_lock(&self) -> io::Result<Lock> {
         begin(Operation::Lock, &self.path)?;
         match self.file.try_lock() {
@@ -290,7 +292,7 @@ impl DiskFile {
         self.file.set_permissions(permissions)
     }
 
-    /// Makes its contents durable, and its length.
+    /// Makes the contents and the length of the file durable.
     pub(crate) fn sync(&self) -> io::Result<()> {
         begin(Operation::Sync, &self.path)?;
         self.file.sync_data()?;
@@ -303,7 +305,7 @@ impl DiskFile {
 impl Write for DiskFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if let Err(error) = begin(Operation::Write, &self.path) {
-            // A disk that is full takes what it has room for.
+            // A full disk accepts the bytes that it has room for, so the fault writes half of them.
             let _ = self.file.write(&bytes[..bytes.len() / 2]);
             return Err(error);
         }

@@ -1,13 +1,13 @@
-//! Which file a path leads to.
+//! Resolves a path to the file it leads to.
 
 use std::fs::{self, Metadata};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// Links that are followed one after another, at most.
+/// The largest number of links followed one after another.
 const LINKS: usize = 40;
 
-/// A file's own identity, whatever its names are; none where the system tells of none.
+/// The identity of a file, independent of its names; `None` where the system has no identities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Identity(Option<[u64; 2]>);
 
@@ -24,7 +24,7 @@ impl Identity {
     }
 }
 
-/// Where a path leads, through all links, whether there is a file already or not.
+/// A path resolved through all links, for files that exist and files that don't exist yet.
 ///
 /// ```
 /// use qrt_runtime::disk::Place;
@@ -41,19 +41,19 @@ pub struct Place {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Nothing is there yet.
+    /// There is no file yet.
     New,
     File(Identity),
     Folder,
-    /// A device or a pipe, or what the process has open, whatever that is.
+    /// A device, a pipe, or any file that the process has open.
     Device,
 }
 
 impl Place {
-    /// Where `path` leads.
+    /// Resolves `path`.
     ///
     /// # Errors
-    /// A path that names no file, or whose folder is not there; and what the file system says.
+    /// If the path names no file, its folder does not exist, or the file system returns an error.
     pub fn of(path: &Path) -> io::Result<Self> {
         let mut path = path.to_path_buf();
         if is_open(&path) {
@@ -82,13 +82,13 @@ impl Place {
                 let kind = Kind::New;
                 return Ok(Self { path, kind });
             };
-            // A link to what is not there yet.
+            // The link dangles: continue with its target.
             path = whole.join(target);
         }
         Err(io::Error::other("too many links, one after another"))
     }
 
-    /// The standard output of the process. Write to it by [`std::io::stdout`].
+    /// The standard output of the process. Use [`std::io::stdout`] to write to it.
     pub fn standard_output() -> Self {
         let (path, kind) = (PathBuf::from("-"), Kind::Device);
         Self { path, kind }
@@ -96,7 +96,7 @@ impl Place {
 
     fn found(path: PathBuf, found: &Metadata) -> io::Result<Self> {
         if !found.is_file() && !found.is_dir() {
-            // Not every device has a path without links: `/dev/stdout` may be a pipe.
+            // A device may have no path without links: `/dev/stdout` may be a pipe.
             let kind = Kind::Device;
             return Ok(Self { path, kind });
         }
@@ -109,28 +109,29 @@ impl Place {
         Ok(Self { path, kind })
     }
 
-    /// The path without links; a device's is as it was given.
+    /// The path without links; for a device, the path as given.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether a file is there.
+    /// Returns whether a file is there.
     pub fn is_file(&self) -> bool {
         matches!(self.kind, Kind::File(_))
     }
 
-    /// Whether a folder is there.
+    /// Returns whether a folder is there.
     pub fn is_folder(&self) -> bool {
         matches!(self.kind, Kind::Folder)
     }
 
-    /// Whether a device or a pipe is there, or what the process has open, such as `/dev/stdout`.
+    /// Returns whether the path is a device, a pipe or a file that the process has open, like
+    /// `/dev/stdout`.
     pub fn is_device(&self) -> bool {
         matches!(self.kind, Kind::Device)
     }
 
-    /// Whether what is written at one is read at the other: they are one file, or will be. Devices
-    /// take what is written to them one after another, and are the same as nothing.
+    /// Returns whether both places are, or will be, the same file, so that a write to one changes
+    /// the other. A device is the same as no other place: it takes all writes one after another.
     pub fn is_same_as(&self, other: &Self) -> bool {
         match (&self.kind, &other.kind) {
             (Kind::Device, _) | (_, Kind::Device) => false,
@@ -142,9 +143,9 @@ impl Place {
     }
 }
 
-/// Whether the path is, or leads by links to, one of the files that this process has open:
-/// `/dev/stdout`, `/dev/fd/3`. Where that is a file, others write to it too, before and after: it is
-/// not to be replaced.
+/// Returns whether the path is, or leads by links to, a file that this process has open:
+/// `/dev/stdout`, `/dev/fd/3`. If that is a regular file, other processes write to it before and
+/// after, so it must not be replaced.
 fn is_open(path: &Path) -> bool {
     let own = fs::canonicalize("/proc/self/fd").ok();
     let mut path = path.to_path_buf();

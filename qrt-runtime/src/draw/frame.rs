@@ -1,4 +1,4 @@
-//! The frame as a drawing: wires to the right, boxes on them.
+//! The frame as a drawing: time runs to the right, with boxes on the wires.
 
 use qrt_core::compile::StageName;
 use qrt_core::inspect::{Frame, FrameBox, Inspection, Part, grouped};
@@ -6,20 +6,21 @@ use qrt_drawing::{Canvas, SMALL, text_width};
 
 /// The distance between wires, in units of the drawing.
 const ROW: f64 = 34.0;
-/// The distance between the middles of boxes.
+/// The distance between the centres of boxes.
 const COLUMN: f64 = 50.0;
 /// The width of a box.
 const BOX: f64 = 36.0;
-/// Of a box beyond its outermost wires.
+/// The height of a box beyond its outermost wires, on each side.
 const RIM: f64 = 13.0;
-/// Where the wires begin: their names are to the left.
+/// The x coordinate where the wires begin; their names are to the left.
 const LEFT: f64 = 170.0;
 const TOP: f64 = 112.0;
 
-/// The frame of an inspected call of the scene called `scene`.
+/// Draws the frame of an inspected call of the scene called `scene`.
 ///
-/// A dot is a wire that a box reads, a square one that it computes or, on a darker box, returns
-/// to zero; wires that a box has nothing to do with are thin within it. Below stand Toffolis.
+/// A dot marks a wire that a box reads. A square marks a wire that a box computes or, on a darker
+/// box, returns to zero. A wire that a box does not use is thin within the box. The numbers below
+/// the boxes are their Toffoli counts.
 pub fn frame(inspection: &Inspection, scene: &str) -> Canvas {
     let frame = Frame::of(inspection);
     let total = inspection.total();
@@ -92,7 +93,7 @@ fn draw_wire(canvas: &mut Canvas, frame: &Frame, wire: usize, right: f64) {
         column(held.end.saturating_sub(1))
     };
     canvas.line("wire", [from, y], [to, y]);
-    // The stroke that marks a bundle.
+    // The slash that marks a bundle of qubits.
     let slash = LEFT - 4.0;
     canvas.line("wire", [slash - 3.0, y + 5.0], [slash + 3.0, y - 5.0]);
 }
@@ -147,7 +148,7 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
         canvas.circle("dot", [x - BOX / 2.0, row(wire)], 3.5);
     }
     for &wire in &item.writes {
-        // Where the wire begins to hold something, or ends to.
+        // The square is at the edge where the wire's value begins or, for an inverse, ends.
         let edge = match (wire == work, item.inverse) {
             (true, _) => x,
             (_, false) => x + BOX / 2.0,
@@ -157,7 +158,7 @@ fn draw_box(canvas: &mut Canvas, frame: &Frame, place: usize, item: &FrameBox) {
     }
 }
 
-/// `Find Intersection 0` as `Find 0`.
+/// Shortens `Find Intersection 0` to `Find 0`.
 fn brief(name: &str) -> String {
     let mut words = name.split(' ');
     let first = words.next().unwrap_or_default();
@@ -167,7 +168,7 @@ fn brief(name: &str) -> String {
     }
 }
 
-/// Bars with the names of the parts.
+/// Draws bars with the names of the parts.
 fn parts(canvas: &mut Canvas, frame: &Frame, y: f64) {
     for part in Part::ALL {
         let first = frame.boxes.iter().position(|b| b.part == part);
@@ -189,7 +190,7 @@ fn parts(canvas: &mut Canvas, frame: &Frame, y: f64) {
     }
 }
 
-/// `1234567` as `1.23 M`: three digits, where space is short.
+/// Formats `1234567` as `1.23 M`: three digits, for places with little space.
 fn short(number: u64) -> String {
     let units = [
         (1_000_000_000_000, "T"),

@@ -1,5 +1,5 @@
-//! Drawings of an inspected oracle: the call in the paper's frame, and which register has which
-//! qubits; and of small circuits, gate by gate.
+//! Drawings of an inspected oracle (the call in the paper's frame, and the map of registers to
+//! qubits) and of small circuits, gate by gate.
 
 mod frame;
 mod registers;

@@ -1,4 +1,4 @@
-//! The register map: time to the right, qubits up.
+//! The register map: time runs to the right, qubits upwards.
 
 use qrt_core::compile::{Role, StageName};
 use qrt_core::inspect::{Inspection, Lifetime, Part, Stage, grouped};
@@ -8,18 +8,19 @@ use std::fmt::Write as _;
 
 const WIDTH: f64 = 1200.0;
 const HEIGHT: f64 = 760.0;
-/// Where the registers are drawn: left, top, right, bottom.
+/// The rectangle in which the registers are drawn: left, top, right, bottom.
 const PLOT: [f64; 4] = [76.0, 92.0, 1180.0, 660.0];
-/// Rectangles that are drawn one by one, each with its name.
+/// The largest number of registers drawn as single rectangles with their names.
 const MOST: usize = 6000;
-/// Side of the squares that stand for registers too small to be drawn, beyond that number.
+/// Side of a square. With more than [`MOST`] registers, squares stand for the small ones.
 const CELL: f64 = 2.0;
 
-/// The register map of an inspected call of the scene called `scene`.
+/// Draws the register map of an inspected call of the scene called `scene`.
 ///
 /// Each register is a rectangle from the instruction that computes it to the one that uncomputes
-/// it, as high as it has qubits; time counts Toffolis. Where there are very many registers, those
-/// below two pixels are drawn together, in squares of the colour that most of each has.
+/// it, and its height is its number of qubits. Time is the number of Toffolis so far. In a drawing
+/// of very many registers, those below two pixels are combined into squares. The colour of a square
+/// is that of the role with the largest area in it.
 pub fn registers(inspection: &Inspection, scene: &str) -> Canvas {
     let map = Map::new(inspection);
     let total = inspection.total();
@@ -65,7 +66,7 @@ fn legend(canvas: &mut Canvas) {
 
 struct Map<'a> {
     inspection: &'a Inspection,
-    /// By instruction: Toffolis before it, and after all of them.
+    /// Number of Toffolis before each instruction, and at the end the number of all.
     times: Vec<u64>,
     height: f64,
 }
@@ -77,7 +78,7 @@ impl<'a> Map<'a> {
             times.push(times.last().copied().unwrap_or(0) + cost.toffoli);
         }
         if times.last() == Some(&0) {
-            // Nothing takes time: instructions count.
+            // Without Toffolis, the unit of time is the instruction.
             times = (0..times.len() as u64).collect();
         }
         let highest = inspection.layout.height.max(inspection.qubits).max(1);
@@ -146,7 +147,7 @@ impl<'a> Map<'a> {
         ]
     }
 
-    /// Draws the registers, and returns the names that fit on them.
+    /// Draws the registers, and returns the labels that fit on them.
     fn lifetimes(&self, canvas: &mut Canvas) -> Vec<([f64; 2], String)> {
         let lifetimes = &self.inspection.layout.lifetimes;
         let all = lifetimes.len() <= MOST;
@@ -161,7 +162,7 @@ impl<'a> Map<'a> {
             }
         }
         if large.len() > MOST {
-            // The largest of them; the others are squares, too.
+            // Draw the largest as rectangles, and the others as squares, too.
             let area = |lifetime: &&Lifetime| {
                 let [_, _, width, height] = self.place(lifetime);
                 -(width * height)
@@ -179,7 +180,7 @@ impl<'a> Map<'a> {
             let ty = register.ty.name(register.width);
             let block = &self.inspection.whole.blocks[register.block.index()].name;
             let hint = format!("{}: {ty}, {block}", register.name);
-            // An edge would hide what is hardly higher.
+            // On a rectangle below three pixels high, an edge would hide the fill.
             let edge = if place[3] >= 3.0 { " edge" } else { "" };
             let class = format!("{}{edge}", class(Role::of(register)));
             canvas.hinted(&class, place, &hint);
@@ -196,11 +197,11 @@ impl<'a> Map<'a> {
         Role::of(&self.inspection.whole.registers[lifetime.register.index()])
     }
 
-    /// Qubits in use: a step for each instruction that is a column of pixels wide, and the most of
-    /// those within one column.
+    /// Draws the qubits in use. An instruction that is at least one column of pixels wide has a
+    /// step of its own; of the instructions within one column, the largest number is drawn.
     fn in_use(&self, canvas: &mut Canvas) {
         let mut points: Vec<(u32, u32)> = Vec::new();
-        // Is the last point that of a column?
+        // True if the last point is the maximum within one column.
         let mut within = false;
         for (at, &in_use) in self.inspection.in_use.iter().enumerate() {
             let [start, end] = [at, at + 1].map(|at| self.x(at).floor() as u32);
@@ -227,7 +228,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Bars below the time axis: the boxes, and the parts of the call.
+    /// Draws bars below the time axis: one row for the boxes, one for the parts of the call.
     fn stages(&self, canvas: &mut Canvas) {
         let stages = self.inspection.stages();
         let (y, height) = (PLOT[3] + 42.0, 18.0);
@@ -268,7 +269,7 @@ impl<'a> Map<'a> {
     }
 }
 
-/// `find_intersection 1` as `find 1`.
+/// Shortens `find_intersection 1` to `find 1`.
 fn brief(stage: &Stage) -> String {
     let word = match stage.name {
         StageName::GenerateRay => "generate",
@@ -280,7 +281,7 @@ fn brief(stage: &Stage) -> String {
         .map_or_else(|| word.to_owned(), |depth| format!("{word} {depth}"))
 }
 
-/// 1, 2 or 5 times a power of ten, at least `least` and at least 1.
+/// The smallest of 1, 2 or 5 times a power of ten that is at least `least` and at least 1.
 fn round_step(least: f64) -> f64 {
     let mut step = 1.0;
     loop {
@@ -293,7 +294,7 @@ fn round_step(least: f64) -> f64 {
     }
 }
 
-/// Squares of the role that most of each belongs to.
+/// Squares, each in the colour of the role with the largest area in it.
 #[derive(Debug, Default)]
 struct Cells {
     area: BTreeMap<(u32, u32), [f32; Role::ALL.len()]>,
@@ -323,7 +324,7 @@ impl Cells {
 
     fn draw(&self, canvas: &mut Canvas) {
         let mut paths: [String; Role::ALL.len()] = Default::default();
-        // The run at hand: its role, row, first column and length.
+        // The current run of squares: its role, row, first column and length.
         let mut run: Option<(usize, u32, u32, u32)> = None;
         let mut write = |run: Option<(usize, u32, u32, u32)>| {
             if let Some((role, row, column, length)) = run {
@@ -332,7 +333,7 @@ impl Cells {
             }
         };
         for (&(row, column), areas) in &self.area {
-            // Less than a third of a square is left to the ground.
+            // A square stays empty if registers cover less than a third of it.
             if areas.iter().sum::<f32>() < (CELL * CELL / 3.0) as f32 {
                 continue;
             }
@@ -356,7 +357,7 @@ impl Cells {
     }
 }
 
-/// The class of a role's colour.
+/// The style class for the colour of a role.
 fn class(role: Role) -> &'static str {
     match role {
         Role::Id => "id",

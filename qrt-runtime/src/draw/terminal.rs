@@ -1,16 +1,16 @@
-//! The frame in a terminal: wires run down, so that depths need lines, not columns.
+//! The frame in a terminal: wires run down, so that more depths need more lines, not more columns.
 
 use qrt_core::inspect::{Frame, grouped};
 use std::fmt::Write as _;
 
-/// Columns that a drawing fills at most, where that can be.
+/// The largest width of a drawing, in columns, if the frame can be drawn that narrow.
 const COLUMNS: usize = 100;
-/// Of a wire: the line and the way to the next; the narrower where it must be.
+/// Columns from one wire to the next; the second if the first is too wide.
 const WIRE: [usize; 2] = [4, 3];
 
-/// The drawing of a frame. A dot reads a wire, a block computes it or, in an inverse, returns it to
-/// zero; at the end of a box's line stand its Toffolis. Where the wires of all depths are more than
-/// fit, those of a depth are drawn as one.
+/// Draws a frame as text. A dot marks a wire that a box reads. A block marks a wire that a box
+/// computes or, in an inverse, returns to zero. Each box's line ends with its Toffoli count. If the
+/// wires of all depths don't fit, the wires of each depth are drawn as one.
 pub fn frame_text(frame: &Frame) -> String {
     let names = frame.boxes.iter().map(|b| b.name.chars().count() + 2);
     let label = names.max().unwrap_or(0);
@@ -45,7 +45,7 @@ pub fn frame_text(frame: &Frame) -> String {
                 .iter()
                 .any(|wire| item.reads.contains(wire) || item.writes.contains(wire))
         };
-        // The last wire, that of the work, is everybody's: no lines lead to it.
+        // Every box may use the last wire, the work wire, so no lines lead to it.
         let others = &columns[..columns.len() - 1];
         let first = others.iter().position(touched);
         let last = others.iter().rposition(touched);
@@ -73,8 +73,8 @@ pub fn frame_text(frame: &Frame) -> String {
     out
 }
 
-/// Names and qubits of the wires, each hanging from the line of its own. Widths are those of the
-/// boxes' names, of the way from wire to wire, and of the costs.
+/// Writes the names and qubits of the wires, each at the top of its own line. `label` is the width
+/// of the boxes' names, `way` the distance from wire to wire, and `cost` the width of the costs.
 fn heads(out: &mut String, frame: &Frame, columns: &[Vec<usize>], [label, way, cost]: [usize; 3]) {
     for (n, column) in columns.iter().enumerate() {
         let _ = write!(out, "{:label$}  ", "");
@@ -90,7 +90,7 @@ fn heads(out: &mut String, frame: &Frame, columns: &[Vec<usize>], [label, way, c
     let _ = writeln!(out, "{:>cost$}", "Toffoli");
 }
 
-/// Name and qubits of a wire, or of those of a depth.
+/// Formats the name and qubits of a wire, or of all wires of a depth.
 fn head(frame: &Frame, column: &[usize]) -> String {
     let qubits: u64 = column.iter().map(|&wire| frame.wires[wire].qubits).sum();
     let wire = &frame.wires[column[0]];
@@ -101,7 +101,7 @@ fn head(frame: &Frame, column: &[usize]) -> String {
     format!("\u{250c} {name}: {}", grouped(qubits))
 }
 
-/// The wires of a depth together, where the first of them is.
+/// Groups the wires of each depth, at the place of the first of them.
 fn by_depth(frame: &Frame) -> Vec<Vec<usize>> {
     let mut columns: Vec<Vec<usize>> = Vec::new();
     for (place, wire) in frame.wires.iter().enumerate() {

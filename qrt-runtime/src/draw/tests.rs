@@ -1,4 +1,4 @@
-//! Drawings of a small scene's oracle.
+//! Tests of the drawings of a small scene's oracle.
 
 use super::*;
 use qrt_core::front::parse;
@@ -6,7 +6,7 @@ use qrt_core::inspect::{Frame, Inspection, Part, grouped};
 use qrt_core::oracle::Options;
 use qrt_drawing::escaped;
 
-/// A lamp over a floor: two rays a path.
+/// A lamp over a floor: two rays for each path.
 const SCENE: &str = "
 name: lit-floor
 camera: { perspective: { eye: [0, 1, 2], target: [0, 0, 0], vfov: 45 } }

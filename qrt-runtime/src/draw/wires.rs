@@ -1,23 +1,24 @@
-//! A small circuit, gate by gate: one wire a qubit, time to the right.
+//! A small circuit, gate by gate: one wire for each qubit, time to the right.
 
 use qrt_circuit::Qubit;
 use qrt_circuit::quantum::{QuantumGate, Turns};
 use qrt_drawing::{Canvas, minus, text_width};
 
-/// The distance between wires, and between the middles of gates, in units of the drawing.
+/// The distance between wires, and between the centres of gates, in units of the drawing.
 const ROW: f64 = 36.0;
 const COLUMN: f64 = 38.0;
 /// The side of a gate's box.
 const SIDE: f64 = 26.0;
-/// Above the first wire, below the title.
+/// The y coordinate of the first wire, below the title.
 const TOP: f64 = 62.0;
-/// Of the whole at the least, so that small circuits have the letters of other drawings.
+/// The smallest width of a drawing, so that letters in small circuits are as large as in other
+/// drawings.
 const WIDTH: f64 = 580.0;
 
-/// Gates of a small circuit in the order in which they run, to be drawn.
+/// A drawing of a small circuit's gates, in the order in which they run.
 ///
-/// Qubit k is wire k, from the top. Gates stand as far to the left as their wires allow, and no
-/// farther than where their part begins.
+/// Qubit k is wire k, counted from the top. Each gate is as far to the left as its wires allow, but
+/// not to the left of the beginning of its part.
 ///
 /// ```
 /// use qrt_circuit::quantum::QuantumGate::{Cx, H};
@@ -31,12 +32,12 @@ const WIDTH: f64 = 580.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Wires {
-    /// Names, and the class of the palette's colour for what the wire holds.
+    /// The name of each wire, and the palette class for the colour of its contents.
     names: Vec<(String, String)>,
     items: Vec<Item>,
-    /// The first column that each wire has free.
+    /// The first free column of each wire.
     free: Vec<usize>,
-    /// Where the part at hand begins, and what all parts are called: name, first column.
+    /// The name and the first column of each part; the last part is the current one.
     parts: Vec<(String, usize)>,
 }
 
@@ -50,23 +51,23 @@ struct Item {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Controls, and the qubit that is flipped.
+    /// The controls, and the target.
     Flip(Vec<Qubit>, Qubit),
-    /// A letter in a box.
+    /// A label in a box.
     Boxed(String, Qubit),
-    /// Dots on all of them, and the phase in turns, unless it is half a turn.
+    /// The qubits that have a dot, and the phase in turns, or an empty text for half a turn.
     Phase(Vec<Qubit>, String),
-    /// A factor of the whole state.
+    /// A global phase.
     Global(String),
-    /// A box over neighbouring wires, maybe under a control elsewhere.
+    /// A box over neighbouring wires, and its control if it has one.
     Block(String, [Qubit; 2], Option<Qubit>),
     Measure(Qubit),
 }
 
 impl Wires {
-    /// A circuit without gates: the name of each qubit, and the class of a colour of
-    /// [`qrt_drawing::style_sheet`] for what it holds (`id`, `comparator`, `flag`, `colour`,
-    /// `work`), or nothing.
+    /// Creates a circuit without gates. `names` holds the name of each qubit and the class of a
+    /// colour of [`qrt_drawing::style_sheet`] for its contents (`id`, `comparator`, `flag`,
+    /// `colour`, `work`), or an empty class.
     pub fn new(names: &[(&str, &str)]) -> Self {
         let owned = |(name, class): &(&str, &str)| ((*name).to_owned(), (*class).to_owned());
         Self {
@@ -77,14 +78,14 @@ impl Wires {
         }
     }
 
-    /// From here on gates belong to a part of this name, which is written beneath them.
+    /// Begins a part: later gates belong to it, and its name is written below them.
     pub fn part(&mut self, name: &str) {
         let next = self.columns();
         self.free.fill(next);
         self.parts.push((name.to_owned(), next));
     }
 
-    /// How many columns there are: gates have room, and the name of the last part, too.
+    /// Number of columns, with room for all gates and for the name of the last part.
     fn columns(&self) -> usize {
         let gates = self.free.iter().max().copied().unwrap_or(0);
         let named = self.parts.last().map_or(0, |(name, first)| {
@@ -93,7 +94,7 @@ impl Wires {
         gates.max(named)
     }
 
-    /// Adds a gate. Qubits beyond the wires are left out.
+    /// Adds a gate. A gate with a qubit beyond the wires is left out.
     pub fn gate(&mut self, gate: QuantumGate<'_>) {
         let mut qubits = Vec::new();
         gate.qubits(|qubit| qubits.push(qubit));
@@ -116,8 +117,8 @@ impl Wires {
         self.put(kind, &qubits, 1);
     }
 
-    /// Adds a box with a name over the wires from the first to the last, which stands for gates
-    /// that are not drawn; with a control, it has a dot there.
+    /// Adds a named box over the wires from the first to the last. The box stands for gates that
+    /// are not drawn. If `control` is set, a dot on that wire controls the box.
     pub fn block(&mut self, name: &str, wires: [Qubit; 2], control: Option<Qubit>) {
         let all: Vec<Qubit> = wires.into_iter().chain(control).collect();
         let width = text_width(name) + 14.0;
@@ -130,7 +131,7 @@ impl Wires {
         self.put(Kind::Measure(qubit), &[qubit], 1);
     }
 
-    /// Puts a gate where all wires between its outermost qubits are free.
+    /// Puts a gate into the first column in which all wires between its outermost qubits are free.
     fn put(&mut self, kind: Kind, qubits: &[Qubit], columns: usize) {
         let all = self.free.len();
         let first = qubits.iter().min().map_or(0, |q| *q as usize);
@@ -147,7 +148,7 @@ impl Wires {
         });
     }
 
-    /// The drawing, under a title.
+    /// Draws the circuit under a title.
     pub fn draw(&self, title: &str) -> Canvas {
         let names = self.names.iter().map(|(name, _)| text_width(name));
         let left = names.fold(30.0, f64::max) + 40.0;
@@ -239,7 +240,7 @@ fn draw_item(canvas: &mut Canvas, item: &Item, x: f64) {
     }
 }
 
-/// The line that joins the qubits of a gate.
+/// Draws the line that joins the qubits of a gate.
 fn joined(canvas: &mut Canvas, x: f64, qubits: impl Iterator<Item = Qubit>) {
     let ends = qubits.fold(None, |ends: Option<[Qubit; 2]>, qubit| {
         let [first, last] = ends.unwrap_or([qubit; 2]);
@@ -250,13 +251,13 @@ fn joined(canvas: &mut Canvas, x: f64, qubits: impl Iterator<Item = Qubit>) {
     }
 }
 
-/// Turns as a fraction: `−1/8`.
+/// Formats turns as a fraction: `−1/8`.
 fn fraction(turns: Turns) -> String {
     let size = 1_u64 << turns.bits();
     minus(&format!("{}/{size}", turns.numerator()))
 }
 
-/// A phase of the whole state, as it is said beside the circuit.
+/// Formats a global phase for the text above the wires.
 fn factor(turns: Turns) -> String {
     if turns == Turns::HALF {
         minus("× (-1)")
@@ -282,7 +283,7 @@ mod tests {
             wires.gate(gate);
         }
         let columns: Vec<usize> = wires.items.iter().map(|item| item.column).collect();
-        // The CNOT's line crosses wire 1, where the X has to wait.
+        // The CNOT's line crosses wire 1, so the X takes the next column.
         assert_eq!(columns, [0, 0, 1, 2, 3]);
         wires.part("next");
         wires.gate(H(1));
@@ -303,7 +304,7 @@ mod tests {
         assert_eq!(wires.items.len() as u64, iterate.gates(false));
         let svg = wires.draw("G").svg();
         assert_eq!(svg.matches(">H</text>").count(), 6);
-        // Two Xs a qubit; the signs of O_f and O_0 have dots on two and on three qubits.
+        // Each qubit has two Xs; the signs of O_f and O_0 have dots on two and on three qubits.
         assert_eq!(svg.matches("class=\"box\" cx").count(), 6);
         assert_eq!(svg.matches("class=\"dot\"").count(), 5);
         assert!(svg.contains("\u{d7} (\u{2212}1)"));
@@ -318,7 +319,7 @@ mod tests {
         let svg = wires.draw("a < b").svg();
         assert_eq!(svg.matches("\u{2212}1/8").count(), 2);
         assert!(svg.contains("a &lt; b") && !svg.contains("NaN"));
-        // A qubit that is not there is no reason to panic.
+        // A gate on a qubit that is not there must not panic.
         wires.gate(H(7));
         assert_eq!(wires.items.len(), 2);
     }

@@ -1,37 +1,38 @@
-//! `abrams-williams`: the mean as an amplitude, shifted and amplified again and again.
+//! `abrams-williams`: the mean as an amplitude that is shifted and amplified repeatedly.
 
 use super::clopper_pearson::clopper_pearson;
 use super::coin::{Coin, intersection, most_queries};
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
-/// The fewest tosses of a stage.
+/// The smallest number of tosses of a stage.
 const FEWEST: u64 = 10;
-/// Tosses of a stage in which the probability f may fail: this times ln(2/f). What they exclude
-/// lets the next stage take at least some 1.4 times the queries a toss.
+/// A stage with failure probability f takes this number times ln(2/f) tosses. Their interval lets
+/// the next stage take at least about 1.4 times the queries per toss.
 const TOSSES: f64 = 1.8;
-/// A stage is the last one if the queries do not suffice for this many like it.
+/// A stage is the last one if the remaining queries do not suffice for this number of equal stages.
 const LAST: u64 = 3;
-/// A stage after which queries are left is followed by no more than this many.
+/// The largest number of stages after the classical paths.
 const STAGES: u32 = 200;
 
 /// `abrams-williams`: Grover's mean algorithm as simplified by Abrams & Williams (*Fast quantum
 /// algorithms for numerical integrals and stochastic processes*, quant-ph/9908083, 1999).
 ///
-/// The amplitude of one basis state is the mean of f - E: see [`Device::shifted`], the circuit. A
-/// first estimate comes of classical paths. Each stage then shifts f by an end of the interval that
-/// is known, amplifies what is left of the mean as far as it stays unambiguous, and measures some
-/// times; the estimate, so many times finer, is the next stage's. The stages' costs are a geometric
-/// series, and the last, which takes all queries that are left, dominates them: the error falls as
+/// The mean of f - E is the amplitude of one basis state: see [`Device::shifted`] for the circuit.
+/// The first estimate comes from classical paths. Each later stage shifts f by an end of the known
+/// interval, amplifies the rest of the mean as far as it stays unambiguous, and measures
+/// repeatedly. The next stage starts from its finer estimate. The stages' costs form a geometric
+/// series. The last stage takes all remaining queries and dominates the cost, so the error falls as
 /// 1/queries.
 ///
-/// The mean is magnified, and not its square root: unlike with Grover's iterate, the error does not
-/// fall with sqrt(a) for small a.
+/// The method amplifies the mean itself, not its square root. Unlike with Grover's iterate, the
+/// error therefore does not fall with sqrt(a) for small a.
 ///
-/// Interval: the stages' Clopper-Pearson intervals, intersected. Half of the failure probability is
-/// the last one's, and of the other half a stage has the square of its fraction of the queries:
-/// what fails early errs most, and is made least probable, so that the root mean square error falls
-/// as 1/queries, too. The coverage is at least the asked confidence, whatever S is. With an error,
-/// stages go on until its half-width is at most that.
+/// Interval: the intersection of the stages' Clopper-Pearson intervals. The last stage has half of
+/// the failure probability. Of the other half, each stage has the square of its fraction of the
+/// queries. An early failure causes the largest error, so it gets the smallest probability, and the
+/// root mean square error also falls as 1/queries. The coverage is at least the requested
+/// confidence for every S. If an error is requested, stages follow until the interval's half-width
+/// is at most that error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbramsWilliams {
     settings: Settings,
@@ -55,7 +56,8 @@ impl AmplitudeEstimator for AbramsWilliams {
         } = self.settings;
         let start = device.usage();
         let failure = 0.5 * (1.0 - confidence);
-        // The squares of fractions add up to one at most: stages take FEWEST tosses or more.
+        // The squares of fractions add up to at most one, because a stage takes FEWEST tosses or
+        // more.
         let failing = |each: u64| {
             let fraction = (each.saturating_mul(FEWEST) as f64 / queries as f64).min(1.0);
             failure * fraction * fraction
@@ -102,8 +104,10 @@ impl AmplitudeEstimator for AbramsWilliams {
     }
 }
 
-/// The queries a toss with which `tosses` have an interval of half-width `error` wherever heads and
-/// tails are as frequent; more would be finer than asked.
+/// The queries per toss at which `tosses` tosses give an interval of half-width `error`.
+///
+/// The interval is that of equally frequent heads and tails. More queries would give a smaller
+/// error than requested.
 pub(super) fn most_for(error: f64, failure: f64, tosses: u64) -> u64 {
     let (low, high) = clopper_pearson(tosses / 2, tosses, failure);
     let reach = 0.5 * (libm::asin(high.sqrt()) - libm::asin(low.sqrt()));

@@ -1,10 +1,10 @@
-//! What every estimator that is given queries promises, whatever there is to estimate.
+//! Tests of every estimator that has a query budget, on many kinds of problems.
 
 use crate::estimators::{Device, Noise, Problem, Settings, estimator};
 use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
-/// Those that decide themselves what they measure.
+/// The estimators that choose their own measurements.
 fn deciding() -> [Estimator; 7] {
     use Estimator::{AdaptiveBayes, Chebyshev, Iqae, Miqae, Mlae, MonteCarlo, RandomDepth};
     [
@@ -25,8 +25,9 @@ fn settings(queries: u64) -> Settings {
     }
 }
 
-/// From one query to 2^50, from one index to 2^60, and with an error that is asked; on good and bad
-/// devices.
+/// Checks budgets of 1 to 2^50 queries for 1 to 2^60 indices, with and without a requested error.
+///
+/// The devices are with and without noise.
 #[test]
 fn no_estimate_leaves_its_bounds_or_its_queries() {
     let noises = ["depolarising=0", "depolarising=0.1", "readout=0.3"];
@@ -55,7 +56,7 @@ fn no_estimate_leaves_its_bounds_or_its_queries() {
                     assert!(0.0 <= low && low <= found.amplitude, "{about}");
                     assert!(found.amplitude <= high && high <= 1.0, "{about}");
                     assert!(found.ln_likelihood.is_none_or(f64::is_finite), "{about}");
-                    // The same device gives the same answer.
+                    // The same random stream gives the same estimate.
                     let mut stream = Stream::new(queries, 0, 0, 0);
                     let mut again = Device::new(problem, noise, &mut stream).unwrap();
                     assert_eq!(estimator.estimate(&mut again).unwrap(), found);
@@ -65,7 +66,7 @@ fn no_estimate_leaves_its_bounds_or_its_queries() {
     }
 }
 
-/// Few runs; the bench makes 10,000.
+/// Checks the coverage with few runs; the bench makes 10,000.
 #[test]
 fn intervals_hold_the_amplitude() {
     for name in deciding() {
@@ -102,7 +103,7 @@ fn intervals_hold_the_amplitude() {
     }
 }
 
-/// Noise that an estimator does not know of must not keep it from coming to an end.
+/// Checks that noise unknown to the estimator does not keep it from terminating.
 #[test]
 fn no_device_is_bad_enough_to_loop() {
     for name in deciding() {

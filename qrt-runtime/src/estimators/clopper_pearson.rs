@@ -1,14 +1,16 @@
 //! Exact intervals of a binomial fraction.
 //!
 //! Clopper & Pearson, *The use of confidence or fiducial limits illustrated in the case of the
-//! binomial* (1934): the fractions under which what was seen, or more of it, has probability at
-//! least half of the failure probability, on either side. They are exact for every number of shots.
+//! binomial* (1934): the interval contains the fractions under which the observed count, or a more
+//! extreme one, has a probability of at least half of the failure probability, on either side.
+//! These intervals are exact for every number of shots.
 
 use super::normal::normal_quantile;
 use crate::counting::binomial::ln_probability;
 
-/// The interval of the fraction of hits, that fails with probability at most `failure`. To a
-/// hundredth of its width, and mostly far better, for up to 2^50 shots.
+/// The interval of the fraction of hits, which fails with probability at most `failure`.
+///
+/// For up to 2^50 shots, its ends are precise to a hundredth of its width, and mostly far better.
 pub(super) fn clopper_pearson(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
     let (low, _) = lower_limit(hits, shots, 0.5 * failure);
     let (_, high) = lower_limit(shots - hits, shots, 0.5 * failure);
@@ -26,8 +28,8 @@ fn lower_limit(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
     if hits == shots {
         return (libm::exp(target / n), -libm::expm1(target / n));
     }
-    // Newton's iteration in the logit, in which the logarithm of the tail is concave and nearly
-    // linear; from Wilson's limit.
+    // Newton's iteration, from Wilson's limit. It works in the logit, in which the logarithm of the
+    // tail is concave and nearly linear.
     let z = normal_quantile(failure);
     let centre = (h + 0.5 * z * z) / (n + z * z);
     let reach = z / (n + z * z) * (h * (n - h) / n + 0.25 * z * z).sqrt();
@@ -48,7 +50,7 @@ fn lower_limit(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
         let next = logistic(logit);
         ln_mass += h * ln_ratio(next, (p, q)) + (n - h) * ln_ratio((next.1, next.0), (q, p));
         (p, q) = next;
-        // The error that is left is of the order of its square.
+        // The remaining error is of the order of the step's square.
         if step.abs() < 1e-7 {
             break;
         }
@@ -64,7 +66,7 @@ fn logistic(logit: f64) -> (f64, f64) {
     )
 }
 
-/// ln(p'/p) of two fractions and what is missing to 1, by the smaller of which they differ.
+/// ln(p'/p) for two pairs (p, 1 - p), computed from the smaller member of the pair.
 fn ln_ratio(next: (f64, f64), now: (f64, f64)) -> f64 {
     if now.0 < now.1 {
         libm::log(next.0 / now.0)
@@ -128,7 +130,7 @@ mod tests {
                         assert_eq!(low, 0.0);
                     }
                     if hits < shots {
-                        // Of 1 - high, raised to up to as many shots.
+                        // Rounding of 1 - high, which is raised to powers of up to `shots`.
                         let rounding = 1e-15 * shots as f64 / (1.0 - high);
                         let found = tail(shots - hits, shots, 1.0 - high) / (0.5 * failure);
                         assert!(
@@ -143,7 +145,7 @@ mod tests {
         }
     }
 
-    /// Quantiles of beta distributions, from tables.
+    /// Compares with tables of quantiles of beta distributions.
     #[test]
     fn limits_are_those_of_tables() {
         for (hits, shots, failure, low, high) in [
@@ -160,7 +162,7 @@ mod tests {
         }
     }
 
-    /// Of so many shots that the limits are normal, and of which one in 10^9 hit.
+    /// Checks hits numerous enough for normal limits, and seven hits in 2^40 shots.
     #[test]
     fn limits_hold_for_any_number_of_shots() {
         for (hits, shots) in [(1 << 49, 1_u64 << 50), (3_000_000, 1 << 40), (7, 1 << 40)] {
@@ -171,7 +173,7 @@ mod tests {
             if hits > 1000 {
                 assert!(z.iter().all(|z| (z - 1.96).abs() < 2e-3), "{z:?}");
             } else {
-                // Poisson's limits of 7.
+                // The limits of a Poisson count of 7.
                 assert!((low * n - 2.814_358).abs() < 1e-4, "{}", low * n);
                 assert!((high * n - 14.422_675).abs() < 1e-4, "{}", high * n);
             }

@@ -1,9 +1,10 @@
-//! What estimators measure on.
+//! The device on which estimators measure.
 //!
-//! The Grover iterate turns the uniform state of the indices by twice the angle `pi theta`, where
-//! `sin^2(pi theta) = S/N`, in the plane of the good and the bad indices. So the outcome of every
-//! circuit that estimators run has a probability in closed form, from which it is drawn. `theta` is
-//! known to 104 bits: a shot after 2^40 iterations has the right probability to better than 1e-15.
+//! The Grover iterate rotates the uniform state of the indices by twice the angle `pi theta`, where
+//! `sin^2(pi theta) = S/N`, in the plane of the good and the bad indices. Every circuit of the
+//! estimators therefore has outcomes with a closed-form probability, from which the device draws
+//! them. `theta` is known to 104 bits: a shot after 2^40 iterations has the right probability to
+//! better than 1e-15.
 
 mod shifted;
 mod strata;
@@ -15,10 +16,10 @@ use crate::counting::{Angle, PhaseDistribution, binomial, good_id};
 use crate::random::Stream;
 use qrt_core::scene::Window;
 
-/// The most Grover iterations between preparation and measurement.
+/// The largest number of Grover iterations between preparation and measurement.
 pub const MAX_ITERATIONS: u64 = 1 << 44;
 
-/// What is to be estimated. Known to the device, and not to the estimator.
+/// The quantity to estimate. The device knows it, the estimator does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// S, the number of good indices, in `0..=N`.
@@ -27,28 +28,28 @@ pub struct Problem {
     pub total: u64,
 }
 
-/// Qubits of an index among `total`, which is at least 1.
+/// Number of qubits of an index among `total`, which is at least 1.
 pub(super) fn id_bits(total: u64) -> u32 {
     u64::BITS - (total - 1).leading_zeros()
 }
 
-/// Queries and shots, up to now.
+/// Numbers of queries and shots of a device since its creation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// Applications of the oracle.
     pub queries: u64,
-    /// How many measurements were made.
+    /// Number of measurements.
     pub shots: u64,
-    /// The query depth: the most queries in one shot.
+    /// The query depth: the largest number of queries in one shot.
     pub depth: u64,
-    /// Times that something was asked.
+    /// Number of times that the estimator requested measurements.
     pub rounds: u64,
-    /// Measured indices that turned out to be good: each is one of the good indices, all equally
-    /// likely.
+    /// Number of measured indices that were good. Each of them is one of the good indices, all
+    /// equally likely.
     pub good_ids: u64,
 }
 
-/// A device that runs circuits with the oracle of one problem, and keeps count.
+/// A device that runs circuits with the oracle of one problem, and counts queries and shots.
 #[derive(Debug)]
 pub struct Device<'a> {
     problem: Problem,
@@ -60,7 +61,7 @@ pub struct Device<'a> {
 }
 
 impl<'a> Device<'a> {
-    /// A device for a problem; what it answers is drawn from `stream`.
+    /// Creates a device for `problem` that draws its measurements from `stream`.
     ///
     /// # Errors
     /// No indices, more good indices than indices, or noise out of range.
@@ -86,17 +87,17 @@ impl<'a> Device<'a> {
         self.problem.total
     }
 
-    /// What was used up to now.
+    /// The usage since the device was created.
     pub fn usage(&self) -> Usage {
         self.usage
     }
 
-    /// Random numbers for an estimator's own decisions.
+    /// Random numbers for an estimator's own choices.
     pub fn stream(&mut self) -> &mut Stream {
         self.stream
     }
 
-    /// What a run that began at `start` estimates, with all that is counted here.
+    /// Creates the estimate of a run that began at `start`, with the counts of this device.
     pub fn estimate(
         &self,
         start: Usage,
@@ -119,7 +120,7 @@ impl<'a> Device<'a> {
         }
     }
 
-    /// Takes note of `shots` measurements of `queries` each.
+    /// Counts `shots` measurements of `queries` queries each.
     fn spend(&mut self, shots: u64, queries: u64) {
         self.usage.queries = (self.usage.queries).saturating_add(shots.saturating_mul(queries));
         self.usage.shots = self.usage.shots.saturating_add(shots);
@@ -127,14 +128,14 @@ impl<'a> Device<'a> {
         self.usage.rounds += 1;
     }
 
-    /// S, by going through all indices: N queries.
+    /// Counts S by evaluating all indices, with N queries.
     pub fn every_id(&mut self) -> u64 {
         self.spend(self.problem.total, 1);
         self.usage.good_ids += self.problem.good;
         self.problem.good
     }
 
-    /// The good indices among `shots` that are drawn at random, with replacement: one query each.
+    /// Number of good indices among `shots` random ones, drawn with replacement; one query each.
     pub fn paths(&mut self, shots: u64) -> u64 {
         self.spend(shots, 1);
         let Problem { good, total } = self.problem;
@@ -144,8 +145,10 @@ impl<'a> Device<'a> {
         found
     }
 
-    /// The good indices among `shots` that are measured after `iterations` Grover iterations each:
-    /// `iterations` queries a shot, but one query where there are none, as [`Device::paths`].
+    /// Number of good indices among `shots` measurements after `iterations` Grover iterations.
+    ///
+    /// A shot takes `iterations` queries. Without iterations it takes one query, as in
+    /// [`Device::paths`].
     ///
     /// An index is good with probability `sin^2((2k + 1) pi theta)`.
     ///
@@ -163,13 +166,15 @@ impl<'a> Device<'a> {
         Ok(self.measured_ids(iterations, good, shots))
     }
 
-    /// How many of `shots` states have returned to the beginning after `iterations` Grover
-    /// iterations: the preparation is undone, and all qubits of the index read zero. `iterations`
-    /// queries a shot, for the preparation of all indices takes none.
+    /// Number of `shots` states that return to the initial state after `iterations` Grover
+    /// iterations.
     ///
-    /// A state returns with probability `cos^2(2k pi theta)`: what is between preparation and its
-    /// inverse turns by `2k pi theta`. A state that noise has destroyed, or that is read wrongly,
-    /// reads zero as often as any other index, once in N.
+    /// The circuit then undoes the preparation, and all qubits of the index read zero. A shot takes
+    /// `iterations` queries, because the preparation of all indices takes none.
+    ///
+    /// A state returns with probability `cos^2(2k pi theta)`, k = `iterations`: the iterations
+    /// between the preparation and its inverse rotate it by `2k pi theta`. A state that noise has
+    /// destroyed, or that is misread, reads zero as often as any other index, once in N.
     ///
     /// # Errors
     /// More iterations than [`MAX_ITERATIONS`].
@@ -186,14 +191,16 @@ impl<'a> Device<'a> {
         Ok(binomial::draw_with(shots, p, q, self.stream))
     }
 
-    /// The probability that a state survives `queries` and all bits of its index are read rightly.
+    /// The probability that a state survives `queries` queries and all bits of its index are read
+    /// correctly.
     fn intact(&self, queries: u64) -> f64 {
         let bits = id_bits(self.problem.total);
         self.noise.intact(queries) * self.noise.read_rightly(bits)
     }
 
-    /// Of `shots` measured indices, those that are good, if without noise one is with probability
-    /// `good` = (p, 1 - p) after `queries`.
+    /// Number of good indices among `shots` measured ones, after `queries` queries each.
+    ///
+    /// `good` is (p, 1 - p), where p is the probability of a good index without noise.
     fn measured_ids(&mut self, queries: u64, good: (f64, f64), shots: u64) -> u64 {
         let (p, q) = if self.noise == Noise::NONE {
             good
@@ -209,8 +216,9 @@ impl<'a> Device<'a> {
         found
     }
 
-    /// Outcomes of the counting circuit with T = 2^`phase_bits`, folded onto `0 ..= T/2`: T-1
-    /// queries each.
+    /// Outcomes of `repetitions` runs of the counting circuit with T = 2^`phase_bits`.
+    ///
+    /// The outcomes are folded onto `0 ..= T/2`. Each run takes T-1 queries.
     ///
     /// # Errors
     /// A register out of range.
@@ -232,7 +240,7 @@ impl<'a> Device<'a> {
             if noise == Noise::NONE {
                 return sampler.sample(stream);
             }
-            // Unfolded: which of y and T - y was read decides what flipped bits make of it.
+            // The value is not folded yet, because flipped bits change y and T - y differently.
             let mut raw = if stream.uniform() < intact {
                 let folded = sampler.sample(stream);
                 let mirrored = stream.next_u64() >> 63 == 1;
@@ -250,7 +258,7 @@ impl<'a> Device<'a> {
             raw.min(size - raw)
         };
         let outcomes = (0..repetitions).map(|_| outcome()).collect();
-        // The indices are measured, too.
+        // The circuit measures the index, too.
         let theta = distribution.theta();
         let p = good_id(theta, phase_bits, window);
         self.measured_ids(size - 1, (p, 1.0 - p), u64::from(repetitions));

@@ -2,8 +2,9 @@
 
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError};
 
-/// `exact`: S itself. Counts every index, N queries, without error: the picture without counting
-/// noise.
+/// `exact`: S itself.
+///
+/// Counts every index, with N queries and without error. The picture then has no counting noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exact;
 

@@ -1,31 +1,32 @@
-//! Intervals at the asked confidence: from a posterior, and from outcomes of the phase register.
+//! Intervals at the requested confidence: from a posterior, or from outcomes of the phase register.
 //!
-//! For the latter, with q(w) the largest probability, over all theta and T, of an outcome more than
-//! w steps from T theta, the lower and the upper median of B outcomes are both on one side of T
+//! For outcomes, let q(w) be the largest probability, over all theta and T, of an outcome more than
+//! w steps from T theta. The lower and the upper median of B outcomes are both on one side of T
 //! theta and farther than w only if more than half of the outcomes are farther:
 //!
 //! ```text
 //! P(a median off by more than w, both on one side) <= P(Binomial(B, q(w)) > B/2).
 //! ```
 //!
-//! The w at which that is the asked failure probability gives an interval from the lower median
-//! less w to the upper median plus w.
+//! Let w be the distance at which this bound is the requested failure probability. The interval
+//! goes from the lower median minus w to the upper median plus w.
 
 use super::clopper_pearson::clopper_pearson;
 use qrt_core::scene::Window;
 use std::f64::consts::PI;
 
-/// The largest part of a step that [`median_steps`] takes off a whole number.
+/// The largest fraction of a step that [`median_steps`] subtracts from a whole number of steps.
 const MOST_OFF: f64 = 0.499;
-/// Beyond this many steps theta is anywhere: a register has fewer.
+/// Number of steps beyond which theta has no limits: every register has fewer steps.
 const ANYWHERE: f64 = 1e13;
 
 /// The fraction of the failure probability that regions of highest density leave out.
 ///
-/// Such a region fails as often as it says on average over the prior, whatever was measured and
-/// when it stopped; at a given amplitude its coverage may be lower. Measured, at a nominal 5 %: 9 %
-/// for adaptive query depths at an amplitude of 1/2, where every query depth gives good and bad
-/// indices alike. With 2/5 of the failure probability, that is 5 %, and the average near 2 %.
+/// On average over the prior, a region of highest density fails as often as it states, for all
+/// outcomes and stopping rules. At a given amplitude its coverage may be lower. Measured at a
+/// nominal 5 %: adaptive query depths fail in 9 % of the runs at an amplitude of 1/2, where every
+/// query depth gives good and bad indices alike. With 2/5 of the failure probability they fail in 5
+/// %, and on average in about 2 %.
 const CAUTION: f64 = 0.4;
 
 /// The posterior mass that a region of highest density must have for a coverage of `confidence`
@@ -37,11 +38,11 @@ pub(super) fn credible_content(confidence: f64) -> f64 {
 /// w, in steps of the register, for B = `repetitions` and any theta and T.
 pub(super) fn median_steps(window: Window, repetitions: u32, confidence: f64) -> f64 {
     let shots = u64::from(repetitions);
-    // The probability q of a shot that is off under which more than half of the shots are off with
-    // the failure probability: a lower limit of Clopper and Pearson's.
+    // If a shot is farther than w with probability q, more than half of the shots are farther with
+    // the failure probability. This q is a lower limit of Clopper and Pearson's.
     let failure = (1.0 - confidence).min(0.49);
     let (fraction, _) = clopper_pearson(shots / 2 + 1, shots, 2.0 * failure);
-    // Less the roundings of the limit and of the tails.
+    // The margin covers rounding in the limit and in the tails.
     let allowed = fraction * (1.0 - 1e-6);
     let mut whole = 1.0;
     while beyond(window, whole, 0.0) > allowed {
@@ -71,14 +72,15 @@ pub(super) fn median_steps(window: Window, repetitions: u32, confidence: f64) ->
     whole - off
 }
 
-/// The largest probability of an outcome more than `whole - off` steps from T theta, for a whole
-/// number from 1 and `off` in [0, 1/2).
+/// The largest probability of an outcome more than `whole - off` steps from T theta.
 ///
-/// With T theta f steps above a grid point, f in [0, 1/2], outcomes within are those from
-/// `1 - whole` to `whole` for f >= off, to `whole - 1` for f < off. Over either range of f what is
-/// beyond is largest at one of its ends. A finite register with the rectangular window has less
-/// beyond than an infinite one, for its kernel is larger everywhere near; with the sine window it
-/// has less than twice as much.
+/// `whole` is a whole number of at least 1, and `off` is in [0, 1/2).
+///
+/// Let T theta be f steps above a grid point, f in [0, 1/2]. The outcomes within the distance are
+/// those from `1 - whole` to `whole` for f >= off, and to `whole - 1` for f < off. Over either
+/// range of f, the probability beyond is largest at an end of the range. With the rectangular
+/// window, a finite register has less probability beyond than an infinite one, because its kernel
+/// is larger everywhere near. With the sine window it has less than twice as much.
 fn beyond(window: Window, whole: f64, off: f64) -> f64 {
     let both = |above: f64, f: f64| tail(window, above - f, f) + tail(window, whole + f, f);
     let few = both(whole, 0.0).max(both(whole, off));
@@ -106,10 +108,10 @@ fn tail(window: Window, distance: f64, f: f64) -> f64 {
     }
 }
 
-/// The sum of `1/((d + j)^2 - 1/4)^2` over j = 0, 1, ..., or a little more.
+/// The sum of `1/((d + j)^2 - 1/4)^2` over j = 0, 1, ...; slightly more if d is above 100.
 fn inverse_squares(distance: f64) -> f64 {
     if distance > 100.0 {
-        // Below the integral from d - 1/2, for the summand is convex.
+        // The summand is convex, so the sum is below the integral from d - 1/2.
         let start = distance - 1.0;
         return 1.0 / (3.0 * start * start * start);
     }
@@ -137,8 +139,8 @@ mod tests {
     use super::*;
     use crate::counting::PhaseDistribution;
 
-    /// What the distribution holds within the steps, for phases on a fine grid and registers of
-    /// every size, folded ends included.
+    /// Compares the bound with the distribution, for phases on a fine grid, registers of several
+    /// sizes and folded ends.
     #[test]
     fn no_phase_and_no_register_has_more_beyond() {
         for window in [Window::Rect, Window::Sine] {
@@ -173,7 +175,7 @@ mod tests {
         }
     }
 
-    /// Brassard and others' 8/pi^2 within a step; a step and a quarter less holds as much.
+    /// Checks the 8/pi^2 of Brassard et al. within one step; three quarters of a step hold as much.
     #[test]
     fn single_outcomes_are_within_a_step_as_the_literature_says() {
         let missing = 1.0 - 8.0 / (PI * PI);
@@ -182,7 +184,7 @@ mod tests {
         assert!((trigamma(0.5) - 0.5 * PI * PI).abs() < 1e-12);
         let steps = median_steps(Window::Rect, 1, 0.81);
         assert!((steps - 0.75).abs() < 1e-3, "{steps}");
-        // More repetitions and less confidence are narrower, never below half a step.
+        // More repetitions give fewer steps, but never less than half a step.
         let mut before = f64::INFINITY;
         for repetitions in [1, 3, 5, 21, 1001, 1_000_000] {
             let steps = median_steps(Window::Rect, repetitions, 0.95);

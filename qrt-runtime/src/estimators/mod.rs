@@ -1,16 +1,16 @@
 //! Estimators: from queries of the oracle to the fraction of good indices.
 //!
-//! One trait, one unit and one result, so that estimators can be compared.
+//! All estimators have one trait, one unit of cost and one type of result, and so are comparable.
 //!
-//! * [`Device`]: what is asked and answered. An estimator knows of the good indices only what it
-//!   measures here, and here queries are counted and noise is added.
-//! * [`Settings`]: what is wanted: an error, a confidence, the queries that may be used.
-//! * [`Estimate`]: the fraction, its interval, and what they took.
+//! * [`Device`]: makes the measurements. It is an estimator's only source of information about the
+//!   good indices. It counts the queries and adds the noise.
+//! * [`Settings`]: the requested error and confidence, and the query budget.
+//! * [`Estimate`]: the fraction, its interval, and their cost.
 //!
 //! The unit is the query: one application of the oracle. A shot after k Grover iterations takes k
-//! queries, for the index that it measures is evaluated classically; without iterations it is a
-//! path of classical Monte Carlo, which is one query, too. Phase estimation with T phases takes
-//! T-1.
+//! queries, because the index that it measures is evaluated classically. A shot without iterations
+//! is a path of classical Monte Carlo, which is one query, too. Phase estimation with T phases
+//! takes T-1 queries.
 
 mod abrams_williams;
 mod bayes;
@@ -56,61 +56,63 @@ pub use windowed::WindowedCounting;
 use crate::random::Stream;
 use qrt_core::scene::{Counting, Estimator};
 
-/// An estimated amplitude, and what it took.
+/// An estimated amplitude and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The estimate of S/N, in [0, 1].
     pub amplitude: f64,
-    /// The likeliest S, where the estimator finds an integer.
+    /// The likeliest S, if the estimator finds an integer.
     pub good: Option<u64>,
-    /// The interval of S/N, in [0, 1]. Its coverage is at least [`Estimate::confidence`]; how it is
-    /// obtained is said with each estimator.
+    /// The interval of S/N, in [0, 1]. Its coverage is at least [`Estimate::confidence`]. Each
+    /// estimator documents its method.
     pub interval: (f64, f64),
-    /// The coverage that was asked of the interval, in (0, 1).
+    /// The requested coverage of the interval, in (0, 1).
     pub confidence: f64,
     /// Applications of the oracle.
     pub queries: u64,
-    /// How many measurements were made.
+    /// Number of measurements.
     pub shots: u64,
-    /// The most queries between preparation and measurement: how long the device must stay
-    /// coherent.
+    /// The largest number of queries between preparation and measurement. The device must stay
+    /// coherent for that long.
     pub depth: u64,
-    /// Times that the estimator decided what to measure next.
+    /// Number of times that the estimator chose the next measurement.
     pub rounds: u64,
-    /// ln of the probability of what was measured, given the estimate; where the estimator
-    /// computes it.
+    /// ln of the probability of the outcomes, given the estimate, if the estimator computes it.
     pub ln_likelihood: Option<f64>,
-    /// Separate ranges of S/N that were still possible when the estimator stopped; where it keeps
+    /// Number of separate ranges of S/N that were still possible at the end, if the estimator keeps
     /// more than one.
     pub candidates: Option<u32>,
-    /// Strata of the comparator that were counted one by one; 1 where the whole was counted at
-    /// once.
+    /// Number of strata of the comparator that were counted on their own; 1 if the whole was
+    /// counted at once.
     pub strata: u32,
 }
 
 /// An estimator of the fraction of good indices.
 pub trait AmplitudeEstimator {
-    /// One run: measures on `device`, and estimates from what it answers. Queries that the device
-    /// was asked before this run are not the estimate's.
+    /// Runs the estimator once: measures on `device`, and estimates from the outcomes.
+    ///
+    /// The estimate does not include queries that the device made before this run.
     ///
     /// # Errors
     ///
     /// A setting out of range.
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError>;
 
-    /// Probability, in [0, 1], that a run measures no good index though there are some, where the
-    /// settings alone fix it; 0, the default, where the run depends on what it measures. A pixel whose
-    /// colour comes from its measured paths has none then.
+    /// Probability, in [0, 1], that a run measures no good index although there are some.
+    ///
+    /// An estimator returns it if the settings alone determine it. The default is 0, for runs that
+    /// depend on their outcomes. A pixel that takes its colour from its measured paths has none
+    /// after a run that misses.
     fn misses(&self) -> f64 {
         0.0
     }
 }
 
-/// The estimator of that name.
+/// Creates the estimator called `name` with `settings`.
 ///
 /// # Errors
 ///
-/// A setting out of range, or strata with one that counts none.
+/// A setting out of range, or strata with an estimator that cannot count them.
 pub fn estimator(
     name: Estimator,
     settings: &Settings,
@@ -142,8 +144,10 @@ pub fn estimator(
     })
 }
 
-/// One run of the estimator of that name on a device without noise, under a scene's counting
-/// block, whose error is one of the amplitude: see [`Settings::of_channel`].
+/// Runs the estimator called `name` once on a device without noise.
+///
+/// `counting` is a scene's counting block, whose error is that of the amplitude: see
+/// [`Settings::of_channel`].
 ///
 /// # Errors
 ///

@@ -6,12 +6,13 @@ use crate::counting::binomial;
 /// `monte-carlo`: the fraction of good indices among `queries` drawn at random, with replacement.
 ///
 /// Interval: all a whose Kullback-Leibler divergence from the fraction is at most
-/// `ln(2/(1 - confidence))/n` (Chernoff's bound, for either side half of the failure probability),
-/// which is valid for every n and a. Where an error is asked, n is the smallest that Hoeffding's
-/// inequality allows, `ln(2/(1 - confidence)) / (2 error^2)`, if that is less than the queries.
+/// `ln(2/(1 - confidence))/n` (Chernoff's bound, with half of the failure probability on either
+/// side). It is valid for every n and a. If an error is requested, n is the smallest number that
+/// Hoeffding's inequality allows, `ln(2/(1 - confidence)) / (2 error^2)`, or `queries` if that is
+/// smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MonteCarlo {
-    /// How many indices are drawn, at least 1.
+    /// Number of indices that are drawn, at least 1.
     queries: u64,
     confidence: f64,
 }
@@ -40,8 +41,9 @@ impl AmplitudeEstimator for MonteCarlo {
     }
 }
 
-/// All a that Chernoff's bound does not exclude, at a probability of `failure` in all, after `hits`
-/// of `shots`.
+/// The range of a that Chernoff's bound does not exclude after `hits` of `shots`.
+///
+/// `failure` is the failure probability of both sides together.
 pub(super) fn chernoff_interval(hits: u64, shots: u64, failure: f64) -> (f64, f64) {
     let n = shots as f64;
     let fraction = hits as f64 / n;

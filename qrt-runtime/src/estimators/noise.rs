@@ -5,16 +5,16 @@ use super::device::id_bits;
 use std::fmt;
 use std::str::FromStr;
 
-/// What goes wrong on a device.
+/// The noise model of a device.
 ///
 /// *Depolarising*: with this probability a query leaves all qubits, those of the index and of the
-/// phase register, in the maximally mixed state, where it stays. A shot of k queries is intact with
-/// probability `(1 - depolarising)^k`; otherwise every outcome is equally likely: an index is good
-/// with probability S/N, and a phase register reads anything.
+/// phase register, in the maximally mixed state, where they stay. A shot of k queries is intact
+/// with probability `(1 - depolarising)^k`. Otherwise every outcome is equally likely: an index is
+/// good with probability S/N, and a phase register reads any value.
 ///
-/// *Readout*: with this probability each measured bit is read wrongly. On a phase register the bits
-/// are flipped. An index that is read wrongly is another index, and is taken to be good with
-/// probability S/N: neighbours of an index are not modelled.
+/// *Readout*: with this probability each measured bit is misread. On a phase register the bits are
+/// flipped. A misread index is another index, which the model takes to be good with probability
+/// S/N. It does not model the neighbours of an index.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// Probability that a query destroys the state.
@@ -30,6 +30,8 @@ impl Noise {
         readout: 0.0,
     };
 
+    /// Checks that both probabilities are in [0, 1].
+    ///
     /// # Errors
     /// A probability that is not in [0, 1].
     pub(crate) fn check(&self) -> Result<(), EstimatorError> {
@@ -41,18 +43,18 @@ impl Noise {
         Ok(())
     }
 
-    /// The probability that a state survives `queries`.
+    /// The probability that a state survives `queries` queries.
     pub fn intact(&self, queries: u64) -> f64 {
         survives(self.depolarising, queries)
     }
 
-    /// The probability that a shot of the shifted circuit among `total` indices survives `queries`,
-    /// and that its index and its coin are read rightly.
+    /// The probability that a shot of the shifted circuit among `total` indices survives `queries`
+    /// queries, and that its index and its coin are read correctly.
     pub fn coin_intact(&self, queries: u64, total: u64) -> f64 {
         self.intact(queries) * self.read_rightly(id_bits(total) + 1)
     }
 
-    /// The probability that `bits` are all read rightly.
+    /// The probability that `bits` bits are all read correctly.
     pub fn read_rightly(&self, bits: u32) -> f64 {
         survives(self.readout, u64::from(bits))
     }
@@ -70,7 +72,7 @@ fn survives(each: f64, times: u64) -> f64 {
 }
 
 impl fmt::Display for Noise {
-    /// The noise as it is written on the command line.
+    /// Writes the noise in the syntax of the command line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -80,7 +82,7 @@ impl fmt::Display for Noise {
     }
 }
 
-/// What is not [`Noise`] as it is written on the command line.
+/// An error in the command line's syntax of [`Noise`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}; noise is written as `depolarising=1e-4,readout=0.01`, with probabilities in 0..=1")]
 pub struct NoiseError(String);

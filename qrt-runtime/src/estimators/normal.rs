@@ -4,10 +4,10 @@ use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// The z with `P(Z > z) = tail` of a standard normal number, 0 < tail <= 1/2.
 ///
-/// Winitzki's approximation of the error function's inverse, and Newton's iteration in the
+/// Uses Winitzki's approximation of the error function's inverse, then Newton's iteration in the
 /// logarithm of the tail, which is concave.
 pub(super) fn normal_quantile(tail: f64) -> f64 {
-    // 2/(pi c) and 1/c, with his c = 0.147.
+    // The constants are 2/(pi c) and 1/c, with Winitzki's c = 0.147.
     let inside = 4.0 * tail * (1.0 - tail);
     let half = 4.330_746_750_799_873 + 0.5 * libm::log(inside);
     let root = (half * half - 6.802_721_088_435_374 * libm::log(inside)).sqrt();
@@ -24,7 +24,7 @@ pub(super) fn normal_quantile(tail: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Tables: 10 %, 5 %, 2.5 %, 0.5 %, 5 sigma and 8 sigma.
+    /// Compares with tables: 50 %, 10 %, 5 %, 2.5 %, 0.5 %, 5 sigma and 8 sigma.
     #[test]
     fn quantiles_are_those_of_tables() {
         for (tail, z) in [

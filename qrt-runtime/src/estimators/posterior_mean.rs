@@ -5,25 +5,29 @@ use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings, Wind
 use crate::counting::posterior_mean;
 use qrt_core::scene::Estimator;
 
-/// `posterior-mean`: the data of `paper`, B runs of the counting circuit with the window of the
-/// scene, and the mean of S/N under a prior uniform over S in `0 ..= N`: of all estimates, the one
-/// of least mean square error over that prior.
+/// `posterior-mean`: the posterior's mean of S/N after B runs of the counting circuit.
 ///
-/// It is biased where the amplitude is near 0 or 1: too bright by about the error of a pixel at
-/// amplitudes below `1/Q^2`. Averaging pixels does not lessen that. `adaptive-bayes` is nearly
-/// without bias.
+/// The runs are those of `paper`, with the window of the scene. The prior is uniform over S in
+/// `0 ..= N`. Of all estimates, this one has the least mean square error over that prior.
 ///
-/// Interval: the amplitudes of highest posterior density that have the asked posterior mass,
-/// cautiously, and what lies between them; extended to the interval of `paper`, whose coverage is
-/// the asked confidence at every amplitude, where a posterior's is so on average only.
+/// It is biased if the amplitude is near 0 or 1: at amplitudes below `1/Q^2` it is too bright by
+/// about the error of a pixel. Averaging pixels does not lessen the bias. `adaptive-bayes` is
+/// nearly without bias.
 ///
-/// Takes B (T - 1) queries, whatever `queries` says; known noise plays no part in its likelihood.
+/// Interval: the range of the amplitudes of highest posterior density that hold the requested
+/// posterior mass, with a margin. It is extended to the interval of `paper`, whose coverage is the
+/// requested confidence at every amplitude; the coverage of a posterior's interval is so only on
+/// average.
+///
+/// Takes B (T - 1) queries and ignores `queries`. Its likelihood ignores known noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosteriorMean {
     counting: WindowedCounting,
 }
 
 impl PosteriorMean {
+    /// Creates the estimator from `settings`.
+    ///
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {

@@ -7,23 +7,23 @@ use crate::counting::LookupTable;
 use qrt_core::scene::Estimator;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Tables that one estimator keeps.
+/// The largest number of tables that one estimator keeps.
 const TABLES: usize = 8;
 
-/// `qss`: phase estimation of the Grover iterate, and a look-up table from what the phase register
-/// reads to the estimate (Johnston, *Quantum supersampling*, SIGGRAPH 2016 talks; Johnston,
-/// Harrigan & Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See
-/// [`LookupTable`].
+/// `qss`: phase estimation of the Grover iterate, and a look-up table from readings to estimates.
 ///
-/// Johnston runs the circuit once a pixel, and so does B = 1. He has no rule for B > 1; here each
-/// reading is looked up, and the lower median of the readings counts.
+/// The method is Johnston's (*Quantum supersampling*, SIGGRAPH 2016 talks; Johnston, Harrigan &
+/// Gimeno-Segovia, *Programming quantum computers*, 2019, chapter 11). See [`LookupTable`].
 ///
-/// Interval: the fractions around the reading that gather `confidence` of its column. That is a
-/// probability if all S were equally likely before, and so for S/N uniform in [0, 1]. For one given
-/// S it may be less: halfway between two readings the coverage of a single reading's interval of
-/// 95 % is 0.90. Known noise flattens the table: a register that is destroyed, or that has
-/// a bit read wrongly, is taken to read anything. As soon as the probability of that reaches the
-/// failure probability, intervals are wide.
+/// Johnston runs the circuit once per pixel, which is B = 1. He gives no rule for B > 1; here the
+/// table looks up the lower median of the readings.
+///
+/// Interval: the fractions around the reading that hold `confidence` of its column. That is a
+/// probability if all S are equally likely before the run, that is, for S/N uniform in [0, 1]. For
+/// one given S it may be less: halfway between two readings, the coverage of a single reading's
+/// interval of 95 % is 0.90. Known noise flattens the table: it takes a register that is destroyed,
+/// or that has a misread bit, to read any value. Once the probability of that reaches the failure
+/// probability, intervals are wide.
 #[derive(Debug)]
 pub struct Supersampling {
     counting: WindowedCounting,
@@ -40,7 +40,7 @@ impl Supersampling {
         })
     }
 
-    /// The table for N indices, made when it is first wanted.
+    /// The table for `total` indices, created on first use.
     ///
     /// # Errors
     /// No indices.

@@ -8,30 +8,33 @@ use crate::counting::binomial;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 use std::sync::LazyLock;
 
-/// A step is the last one if the queries do not suffice for this many like it: for the next.
+/// A step is the last one if the remaining queries do not suffice for this number of equal steps:
+/// for itself and the next step, which takes twice the queries.
 const LAST: u64 = 3;
 
 /// `qcoin`: the quantum coin method (Shimada & Hachisuka, *Quantum coin method for numerical
 /// integration*, Computer Graphics Forum 39(6), 2020), a hybrid of classical and quantum steps
 /// after Abrams & Williams.
 ///
-/// A coin that shows heads with probability a is tossed L times: classical paths. The fraction of
-/// heads leaves an interval for a. Every further step tosses L coins of [`Device::shifted`], whose
-/// reference is the interval's end, and that take twice the queries of the step before; each step
-/// halves the interval. K steps take at most `L (2^K - 1)` queries.
+/// The first step tosses a coin that shows heads with probability a, L times: these are classical
+/// paths. The fraction of heads gives an interval for a. Every further step tosses L coins of
+/// [`Device::shifted`], with an end of the interval as reference. They take twice the queries of
+/// the step before, and each step halves the interval. K steps take at most `L (2^K - 1)` queries.
 ///
-/// *Parameters.* After each step a is taken to be within pi/8 of the estimate in the coin's angle
-/// `m omega`. (The authors' limits, `sin(pi/2^(k+1))/2` after step k, are that to first order. They
-/// shift by the lower end always, and by f - E itself; here the end nearer to 1/2 and the full
-/// scale of f - E save up to half of a step's queries.) L is the smallest number with which all
-/// steps' limits hold but for half of the failure probability; K is as large as the queries allow.
-/// With known noise the limits are Clopper-Pearson's, for the same half of the failure probability.
-/// The authors leave L to experiment: with their 4 tosses, a step misses for some a as often as
-/// not. The last step tosses as often as queries are left.
+/// *Parameters.* After each step the estimator takes a to be within pi/8 of the estimate in the
+/// coin's angle `m omega`. (To first order, these are the authors' limits, `sin(pi/2^(k+1))/2`
+/// after step k. The authors always shift by the lower end, and by f - E itself. Here the end
+/// nearer to 1/2 and the full scale of f - E save up to half of a step's queries.) L is the
+/// smallest number with which the limits of all steps hold, except with half of the failure
+/// probability. K is as large as the queries allow. With known noise the limits are
+/// Clopper-Pearson's, for the same half of the failure probability. The authors leave L to
+/// experiment: with their 4 tosses, there are a for which a step misses as often as not. The last
+/// step uses all remaining queries for tosses.
 ///
 /// Interval: the Clopper-Pearson interval of the last step's tosses, for the other half of the
-/// failure probability, within the limits. The coverage is at least the asked confidence, whatever
-/// S is. With an error, steps go on until the interval's half-width is at most that.
+/// failure probability, within the limits. The coverage is at least the requested confidence for
+/// every S. If an error is requested, steps follow until the interval's half-width is at most that
+/// error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuantumCoin {
     settings: Settings,
@@ -53,7 +56,7 @@ impl QuantumCoin {
         }
     }
 
-    /// L, the tosses of a step.
+    /// L, the number of tosses of a step.
     pub fn tosses(&self) -> u64 {
         self.tosses
     }
@@ -72,7 +75,8 @@ impl AmplitudeEstimator for QuantumCoin {
         let error = self.settings.error.unwrap_or(0.0);
         let deepest = most_queries(known_noise);
         let steps = steps(queries, self.tosses);
-        // Where to stop is decided after every step, or by the queries alone.
+        // With a requested error, the run may stop after any step, so each step's interval has its
+        // part of the failure probability. Otherwise the queries alone determine the last step.
         let each = failure / f64::from(if error > 0.0 { steps } else { 1 });
         let enough = most_for(error, each, self.tosses);
 
@@ -119,15 +123,19 @@ impl AmplitudeEstimator for QuantumCoin {
     }
 }
 
-/// The most steps of L tosses each, the first with one query a toss: queries double but for
-/// roundings, and may stay the same once where the reference passes 1/2.
+/// The largest number of steps of `tosses` tosses each, the first with one query per toss.
+///
+/// Queries per toss double from step to step, except for rounding. They may stay the same once,
+/// where the reference passes 1/2.
 fn steps(queries: u64, tosses: u64) -> u32 {
     u64::BITS - (queries / tosses).leading_zeros() + 2
 }
 
-/// A bound of the probability with which the fraction of heads in L tosses is off by more than pi/8
-/// in its angle, whatever the probability of heads is. From 65 tosses on it is Chernoff's, with the
-/// Kullback-Leibler divergence bounded from below by that of Bhattacharyya, `-2 ln cos(pi/8)`.
+/// An upper bound of the probability that L tosses put the fraction of heads off by more than pi/8.
+///
+/// The deviation is in the angle of the fraction, and the bound holds for every probability of
+/// heads. From 65 tosses on it is Chernoff's, with the Kullback-Leibler divergence bounded from
+/// below by that of Bhattacharyya, `-2 ln cos(pi/8)`.
 fn step_fails(tosses: u64) -> f64 {
     static FEW: LazyLock<Vec<f64>> = LazyLock::new(|| (0..=64).map(worst_angle).collect());
     match FEW.get(tosses as usize) {
@@ -136,11 +144,12 @@ fn step_fails(tosses: u64) -> f64 {
     }
 }
 
-/// The same for few tosses, summed.
+/// The same bound for few tosses, by summation.
 ///
-/// With heads at an angle x in [0, pi/2], too few are those k whose angle is below x - pi/8, and
-/// too many those above x + pi/8. The former's probability falls with x and the latter's grows, so
-/// that on a piece between the angles at which a k joins, the values at either end bound the sum.
+/// With heads at an angle x in [0, pi/2], k is too low if its angle is below x - pi/8, and too high
+/// if its angle is above x + pi/8. The probability of too low a k falls with x, and that of too
+/// high a k grows. On a piece between the angles at which a k joins, the values at its two ends
+/// therefore bound the sum.
 fn worst_angle(tosses: u64) -> f64 {
     const PIECES: usize = 8;
     if tosses == 0 {
@@ -165,7 +174,7 @@ fn worst_angle(tosses: u64) -> f64 {
             .count() as u64;
         let at = |i: usize| pair[0] + (pair[1] - pair[0]) * i as f64 / PIECES as f64;
         for piece in 0..PIECES {
-            // `many` of n is `many` tails or fewer.
+            // The `many` largest k are those with fewer than `many` tails.
             let below = tail(tosses, few, at(piece));
             let above = tail(tosses, many, FRAC_PI_2 - at(piece + 1));
             worst = f64::max(worst, below + above);
@@ -174,7 +183,7 @@ fn worst_angle(tosses: u64) -> f64 {
     worst.min(1.0)
 }
 
-/// The probability of fewer than `below` heads at an angle x.
+/// The probability of fewer than `below` heads in `tosses` tosses at an angle x.
 fn tail(tosses: u64, below: u64, x: f64) -> f64 {
     let p = libm::sin(x).powi(2);
     if p <= 0.0 || p >= 1.0 {
@@ -190,7 +199,7 @@ fn tail(tosses: u64, below: u64, x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Against the probabilities themselves, on a fine grid of angles.
+    /// Compares the bound with exact probabilities on a fine grid of angles.
     #[test]
     fn steps_fail_as_often_as_the_worst_angle_says() {
         for tosses in [1_u64, 2, 4, 9, 16, 25, 64] {
@@ -210,7 +219,7 @@ mod tests {
             assert!(bound >= worst, "{tosses}: {bound}, {worst}");
             assert!(bound <= 1.4 * worst, "{tosses}: {bound}, {worst}");
         }
-        // Four tosses without heads, at an angle just above pi/8.
+        // The failure here is four tosses without heads, at an angle just above pi/8.
         assert!(step_fails(4) > libm::cos(FRAC_PI_8).powi(8));
         assert!(step_fails(65) > step_fails(64) && step_fails(65) < 1e-4);
     }

@@ -1,5 +1,5 @@
-//! What the estimators of quantum rendering promise, in short; at length in
-//! `benches/rendering_estimators.rs`.
+//! Short tests of the estimators of quantum rendering; `benches/rendering_estimators.rs` has the
+//! long ones.
 
 use super::{Device, Estimate, Noise, Problem, Settings, estimator};
 use crate::counting::PhaseDistribution;
@@ -79,7 +79,8 @@ fn known_noise_leaves_coins_their_intervals() {
     }
 }
 
-/// Any budget, any S: an answer within [0, 1] and the budget, and the same one again.
+/// Checks that every budget and S give an estimate within [0, 1] and the budget, and the same
+/// again.
 #[test]
 fn every_budget_gives_an_answer() {
     let noisy = Noise {
@@ -139,7 +140,8 @@ fn an_asked_error_is_reached_and_not_much_more_is_spent() {
     }
 }
 
-/// Noise limits the queries of a toss, and so tosses must be many; but no more than it takes.
+/// Checks the cost under noise, which limits the queries per toss, so that many tosses are
+/// necessary.
 #[test]
 fn an_asked_error_is_reached_in_spite_of_known_noise() {
     let noise = Noise {
@@ -166,7 +168,7 @@ fn an_asked_error_is_reached_in_spite_of_known_noise() {
     }
 }
 
-/// A single reading's likeliest S is what the paper's inference finds: the table holds the same.
+/// Checks that the table and the paper's inference find the same S for a single reading.
 #[test]
 fn supersampling_looks_up_what_is_likeliest() {
     for (total, bits) in [(16, 4), (1000, 7), (1 << 30, 12), (1 << 60, 40)] {
@@ -183,8 +185,9 @@ fn supersampling_looks_up_what_is_likeliest() {
     }
 }
 
-/// Halfway between two readings, the coverage of the intervals of 95 % is 0.90; the sum is over the
-/// readings themselves.
+/// Checks that intervals of 95 % have a coverage of 0.90 halfway between two readings.
+///
+/// The coverage is a sum over all readings, not over random runs.
 #[test]
 fn supersampling_covers_least_between_its_readings() {
     let (total, bits) = (1_u64 << 40, 8);

@@ -1,40 +1,41 @@
-//! What is wanted of an estimator.
+//! Settings of estimators.
 
 use super::{EstimatorError, Noise};
 use crate::counting::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 use qrt_core::scene::{Counting, Window};
 
-/// The confidence of intervals where none is asked.
+/// The default confidence of intervals.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;
 
-/// What is wanted of an estimator. Each takes from it what it has a use for.
+/// Settings of estimators. Each estimator uses those that apply to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// t, of T = 2^t: the phase register, in `1..=40`.
+    /// t, of T = 2^t: the number of phase bits, in `1..=40`.
     pub phase_bits: u32,
-    /// B, the runs of the counting circuit, in `1..=1000000`.
+    /// B, the number of runs of the counting circuit, in `1..=1000000`.
     pub repetitions: u32,
-    /// The phase register's window, for `posterior-mean`, which leaves it open.
+    /// The phase register's window, for `posterior-mean`, which accepts either window.
     pub window: Window,
-    /// The most queries that may be used, for estimators that decide themselves what they measure;
-    /// at least 1. (T - 1) B in a scene, so that all estimators cost the same.
+    /// The query budget, at least 1, for estimators that choose their own measurements. In a scene
+    /// it is (T - 1) B, so that all estimators cost the same.
     pub queries: u64,
-    /// The error at which they stop, as the interval's half-width, in (0, 1); none: when the
-    /// queries are used.
+    /// The error at which those estimators stop, as the interval's half-width, in (0, 1). With
+    /// `None`, they stop at the end of the budget.
     pub error: Option<f64>,
-    /// The asked coverage: the probability with which the interval contains S/N, in (0, 1).
+    /// The requested coverage: the probability with which the interval contains S/N, in (0, 1).
     pub confidence: f64,
-    /// Strata of the comparator to count one by one, on a device that can; none: as many as what is
-    /// measured first suggests.
+    /// Number of strata of the comparator to count on their own, on a device that can. With `None`,
+    /// the first measurements determine the number.
     pub strata: Option<u32>,
-    /// Noise that an estimator with a likelihood reckons with. What a device suffers is said where
-    /// it is made, and may differ.
+    /// Noise that an estimator's likelihood assumes. The actual noise is a property of the device,
+    /// and may differ.
     pub known_noise: Noise,
 }
 
 impl Settings {
-    /// The settings of a scene's counting block, but for its error: `queries` is what B runs of its
-    /// counting circuit take.
+    /// The settings of a scene's counting block, except its error.
+    ///
+    /// `queries` is the cost of B runs of the block's counting circuit.
     ///
     /// # Errors
     /// A register or repetitions out of range.
@@ -53,13 +54,14 @@ impl Settings {
         })
     }
 
-    /// The same for a channel whose colours are `scale`, above 0, times an amplitude: its
+    /// The settings for a channel whose colours are `scale` times an amplitude; `scale` is above 0.
+    ///
     /// `counting.error` is in radiance.
     ///
     /// # Errors
     /// A register or repetitions out of range.
     pub fn of_channel(counting: &Counting, scale: f64) -> Result<Self, EstimatorError> {
-        // Every interval is that narrow.
+        // Every interval is narrow enough for this error.
         const ANY: f64 = 0.499;
         let error = counting.error.map(|error| (error / scale).min(ANY));
         Ok(Self {

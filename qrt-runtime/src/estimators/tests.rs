@@ -1,4 +1,4 @@
-//! What all estimators promise.
+//! Tests of all estimators.
 
 use crate::counting::CountingError;
 use crate::estimators::{Device, EstimatorError, Noise, Problem, Settings, estimate, estimator};
@@ -16,7 +16,7 @@ fn counting(phase_bits: u32, repetitions: u32) -> Counting {
     }
 }
 
-/// Measured elsewhere for a uniform in [0, 1]: a root mean square error of 0.41/sqrt(n).
+/// Compares with an error measured elsewhere for a uniform in [0, 1]: an RMSE of 0.41/sqrt(n).
 #[test]
 fn monte_carlo_errors_scale_as_the_literature_says() {
     let total = 1_u64 << 40;
@@ -162,8 +162,9 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
     }
 }
 
-/// The fraction of good indices after k iterations, against the closed form; with noise, against
-/// its mixture with a random index.
+/// Compares the fraction of good indices after k iterations with the closed form.
+///
+/// With noise, the closed form is mixed with the probability of a random index.
 #[test]
 fn devices_measure_what_the_iterate_gives() {
     let problem = Problem {
@@ -184,7 +185,7 @@ fn devices_measure_what_the_iterate_gives() {
             let shots = 100_000;
             let fraction = device.iterated(k, shots).unwrap() as f64 / shots as f64;
             let ideal = libm::sin((2 * k + 1) as f64 * theta).powi(2);
-            // Ten bits are read, and k times the state may be destroyed.
+            // Ten bits are read, and each of k queries may destroy the state.
             let right = (1.0 - noise.depolarising).powi(k as i32) * (1.0 - noise.readout).powi(10);
             let expected = if k == 0 {
                 37.0 / 1024.0
@@ -205,8 +206,9 @@ fn devices_measure_what_the_iterate_gives() {
     assert!(device.iterated(1 << 50, 1).is_err());
 }
 
-/// A phase register in the maximally mixed state reads every number equally often, which folds onto
-/// twice as often as 0 and T/2.
+/// Checks that a phase register in the maximally mixed state reads every number equally often.
+///
+/// After folding, the outcomes between 0 and T/2 are twice as frequent as these two.
 #[test]
 fn a_destroyed_counter_reads_anything() {
     let problem = Problem { good: 1, total: 64 };
@@ -231,7 +233,7 @@ fn a_destroyed_counter_reads_anything() {
     }
 }
 
-/// One wrong bit in a register that reads T/4 for certain.
+/// Checks misread bits in a register that reads T/4 with certainty.
 #[test]
 fn wrong_bits_are_those_of_the_counter() {
     let problem = Problem { good: 1, total: 2 };
@@ -245,7 +247,7 @@ fn wrong_bits_are_those_of_the_counter() {
     for y in device.phases(3, Window::Rect, 100_000).unwrap() {
         counts[y as usize] += 1;
     }
-    // y = 2 or 6: bits 010 and 110, of which any may flip; 6 folds onto 2, 7 and 1 onto 1, ...
+    // y = 2 or 6: bits 010 and 110. Each bit may flip. 6 folds onto 2, 7 and 1 fold onto 1, ...
     let (w, r) = (0.1_f64, 0.9_f64);
     let mut expected = [0.0; 5];
     for start in [2_usize, 6] {

@@ -1,15 +1,15 @@
 //! Angles as integers: multiples of 2^-64 turns.
 //!
 //! With S/N = sin^2(pi theta), theta in [0, 1/2] turns is an integer in `0 ..= 2^63`. A multiple of
-//! it, modulo a turn, is a wrapping product: exact, however deep the iterate. The 64 bits place
-//! theta to 5e-20 turns, and after 2^44 iterations the phase to 1e-6.
+//! it, modulo a turn, is a wrapping product, which is exact for any number of iterations. The 64
+//! bits give theta to 5e-20 turns, and the phase after 2^44 iterations to 1e-6 turns.
 
 use std::f64::consts::PI;
 
-/// Half a turn: theta where all indices are good.
+/// Half a turn: theta if all indices are good.
 pub(super) const HALF: u64 = 1 << 63;
 
-/// Turns to radians, of angles in units of 2^-64 turns.
+/// Factor from theta in units of 2^-64 turns to `pi theta` in radians.
 const RADIANS: f64 = PI / 18_446_744_073_709_551_616.0;
 
 /// `(sin^2, cos^2)` of pi times an angle, given modulo a turn.
@@ -30,7 +30,7 @@ pub(super) fn amplitude(angle: u64) -> f64 {
     sine_squared(angle).0.clamp(0.0, 1.0)
 }
 
-/// The angle in `0 ..= HALF` whose sine squared is `sine`; good to 2^-50 turns.
+/// The angle in `0 ..= HALF` whose sine squared is `sine`, precise to 2^-50 turns.
 pub(super) fn of_sine_squared(sine: f64) -> u64 {
     let radians = libm::atan2(sine.max(0.0).sqrt(), (1.0 - sine).max(0.0).sqrt());
     ((radians / RADIANS) as u64).min(HALF)

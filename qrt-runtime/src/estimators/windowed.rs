@@ -9,12 +9,13 @@ use std::f64::consts::PI;
 /// Repeated quantum counting, and the likeliest S: `paper` with the rectangular window, `sine`
 /// with the sine window.
 ///
-/// Interval: with y' and y'' the lower and the upper median of the B outcomes, theta lies in
-/// `[(y' - w)/T, (y'' + w)/T]` with at least the asked confidence, for every theta, T and B. w
-/// follows from the exact tails of the kernel and the binomial distribution of how many outcomes
-/// are far off. For a single outcome of the paper's, w is 3/4 at 8/pi^2 (Brassard, Hoyer, Mosca &
-/// Tapp, *Quantum amplitude amplification and estimation*, 2000, theorem 11, have 1), and 4.1 at
-/// 95 %; with B = 3 it is 1.0. Where the likeliest S lies outside, the interval is extended to it.
+/// Interval: let y' and y'' be the lower and the upper median of the B outcomes. theta lies in
+/// `[(y' - w)/T, (y'' + w)/T]` with at least the requested confidence, for every theta, T and B. w
+/// follows from the exact tails of the kernel and from the binomial distribution of the number of
+/// outcomes that are far off. For a single outcome of `paper`, w is 3/4 at 8/pi^2 (Brassard, Hoyer,
+/// Mosca & Tapp, *Quantum amplitude amplification and estimation*, 2000, theorem 11, have 1), and
+/// 4.1 at 95 %; with B = 3 it is 1.0. If the likeliest S lies outside, the interval is extended to
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowedCounting {
     /// t, of T = 2^t, in `1..=40`.
@@ -23,13 +24,14 @@ pub struct WindowedCounting {
     pub repetitions: u32,
     /// The window of the phase register.
     pub window: Window,
-    /// The interval's, in (0, 1).
+    /// The confidence of the interval, in (0, 1).
     pub confidence: f64,
 }
 
 impl WindowedCounting {
-    /// The counting circuit of an estimator with a phase register: `paper`, `sine`,
-    /// `posterior-mean` or `qss`.
+    /// Creates the counting circuit of `name`, an estimator with a phase register.
+    ///
+    /// The estimators with one are `paper`, `sine`, `posterior-mean` and `qss`.
     ///
     /// # Errors
     /// A setting out of range.
@@ -48,8 +50,9 @@ impl WindowedCounting {
         device.phases(self.phase_bits, self.window, self.repetitions)
     }
 
-    /// What `outcomes` say about the good indices among `total`; [`Self::repetitions`] plays no
-    /// part.
+    /// Estimates the good indices among `total` from `outcomes`.
+    ///
+    /// The number of outcomes need not be [`Self::repetitions`].
     ///
     /// # Errors
     ///
@@ -98,8 +101,10 @@ impl AmplitudeEstimator for WindowedCounting {
         self.infer(&outcomes, device.total())
     }
 
-    /// A phase register that tells the two eigenstates apart leaves the index in one of them, where half
-    /// of the probability is that of good indices.
+    /// The probability that no run measures a good index, 2^-B.
+    ///
+    /// A phase register that distinguishes the two eigenstates leaves the index in one of them.
+    /// Half of that eigenstate's probability is on the good indices.
     fn misses(&self) -> f64 {
         libm::exp2(-f64::from(self.repetitions))
     }

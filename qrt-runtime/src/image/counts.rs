@@ -1,4 +1,4 @@
-//! The counts behind a picture, as CSV.
+//! Writes the counts of a picture's channels as CSV.
 
 use super::ImageError;
 use crate::replace_file::replace_file;
@@ -17,19 +17,19 @@ pub struct Count {
     pub channel: usize,
     /// The channel's value: linear radiance, at least 0.
     pub value: f64,
-    /// Good indices, S; the real model counts none.
+    /// Number of good indices, S; `None` in the real model, which counts none.
     pub good: Option<u64>,
     /// N, the number of all indices.
     pub total: u64,
-    /// Radiance of S = N.
+    /// The radiance that S = N stands for.
     pub scale: f64,
 }
 
-/// Writes `x,y,channel,value,good,total,scale`, a line for each count, all or nothing. Radiances
-/// have 17 significant digits, which name an f64 exactly.
+/// Writes `x,y,channel,value,good,total,scale` and a line for each count, all or nothing. Radiances
+/// have 17 significant digits, which identify an f64 exactly.
 ///
 /// # Errors
-/// What the file system says, or [`ImageError::NotFinite`].
+/// If the file system fails, or [`ImageError::NotFinite`].
 pub fn write_counts(
     path: &Path,
     counts: impl IntoIterator<Item = Count>,
@@ -37,7 +37,7 @@ pub fn write_counts(
     replace_file(path, |out| write_counts_to(out, counts)).map_err(|error| error.at(path))
 }
 
-/// As [`write_counts`], to whatever takes bytes.
+/// Writes counts as [`write_counts`] does, to any writer.
 ///
 /// # Errors
 /// An error of `out`, as [`ImageError::Write`], or [`ImageError::NotFinite`].

@@ -1,9 +1,9 @@
-//! OpenEXR: linear 32-bit float RGB and what else is told of pixels, with the metadata as string
-//! attributes.
+//! OpenEXR: linear 32-bit float RGB and further layers, with the metadata as string attributes.
 //!
-//! Written here rather than by a library: one part, scan lines, no compression is a page of code,
-//! brings no dependencies, and gives the same bytes on every run (the `exr` crate, which the tests
-//! read it with, writes attributes in a hash map's order). Layout after "OpenEXR File Layout",
+//! This module writes the file itself instead of using a library. One part with scan lines and
+//! without compression is a page of code, brings no dependencies, and gives the same bytes on every
+//! run. The `exr` crate, with which the tests read the file, writes attributes in a hash map's
+//! order. The layout follows "OpenEXR File Layout",
 //! <https://openexr.com/en/latest/OpenEXRFileLayout.html>; all numbers are little-endian.
 
 use super::metadata::{Metadata, PREFIX};
@@ -13,25 +13,25 @@ use std::io::{self, Write};
 const MAGIC: u32 = 20_000_630;
 const VERSION: u32 = 2;
 const FLOAT: i32 = 2;
-/// Primaries and white of sRGB and Rec. 709, which is what linear RGB means here: x, y of red,
-/// green, blue and white.
+/// Primaries and white of sRGB and Rec. 709, those of linear RGB in this crate: x, y of red, green,
+/// blue and white.
 const CHROMATICITIES: [f32; 8] = [0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290];
 
-/// A value of each pixel.
+/// One channel of the file.
 enum Channel<'a> {
-    /// Of the picture: 0 red, 1 green, 2 blue.
+    /// A channel of the picture: 0 red, 1 green, 2 blue.
     Colour(usize),
     Layer(&'a [f64]),
 }
 
-/// Writes the picture. Bytes of a line must fit i32, and every value f32.
+/// Writes the picture. The bytes of a line must fit into an i32, and every value into an f32.
 pub(super) fn write(
     out: &mut impl Write,
     image: &Image,
     layers: &[Layer],
     metadata: &Metadata,
 ) -> io::Result<()> {
-    // Alphabetical, as the format demands.
+    // The format requires the channels in alphabetical order.
     let colours = ["R", "G", "B"].into_iter().enumerate();
     let mut channels: Vec<(&str, Channel<'_>)> = colours
         .map(|(c, name)| (name, Channel::Colour(c)))
@@ -43,7 +43,7 @@ pub(super) fn write(
     let header = header(image, &names, metadata);
     out.write_all(&header)?;
 
-    // Where each line stands, counted from the file's beginning.
+    // The offset of each line from the beginning of the file.
     let data_bytes = 4 * channels.len() as u32 * image.width;
     let line_bytes = 8 + u64::from(data_bytes);
     let first = header.len() as u64 + 8 * u64::from(image.height);
@@ -80,7 +80,7 @@ fn header(image: &Image, names: &[&str], metadata: &Metadata) -> Vec<u8> {
         channels.extend(1i32.to_le_bytes()); // and down
     }
     channels.push(0);
-    // First and last column and row, both of them inside.
+    // The first and the last column and row, both inclusive.
     let Window { origin, film } = image.window();
     let window = |[x, y]: [u32; 2], [width, height]: [u32; 2]| -> Vec<u8> {
         let corners = [x, y, x + width - 1, y + height - 1];

@@ -1,14 +1,16 @@
-//! What a picture says of its own making.
+//! Metadata of a picture: names and values that record how it was made.
 
 use super::ImageError;
 
-/// Before every key in a file, so that it can't be taken for one of the format's own.
+/// Prefix of every key in a file, which keeps it apart from the format's own keys.
 pub(super) const PREFIX: &str = "qrt:";
 
-/// With [`PREFIX`], the 31 bytes of an EXR attribute's short name; PNG allows 79.
+/// The longest key. With [`PREFIX`] it has 31 bytes, those of an EXR attribute's short name; PNG
+/// allows 79.
 const LONGEST_KEY: usize = 31 - PREFIX.len();
 
-/// Keys and their values, in the order they were set; in a file each key stands as `qrt:KEY`.
+/// Keys and values in the order in which they were set. In a file, each key is written as
+/// `qrt:KEY`.
 ///
 /// ```
 /// use qrt_runtime::image::Metadata;
@@ -23,16 +25,16 @@ const LONGEST_KEY: usize = 31 - PREFIX.len();
 pub struct Metadata(Vec<(String, String)>);
 
 impl Metadata {
-    /// Metadata without any key.
+    /// Creates metadata without any key.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets a key's value, replacing one that it has.
+    /// Sets the value of a key, and replaces an earlier value.
     ///
     /// # Errors
-    /// A key is 1 to 27 ASCII letters, digits, `_` or `-`; a value holds no NUL and is shorter than
-    /// 2 GiB.
+    /// If the key is not 1 to 27 ASCII letters, digits, `_` or `-`, or if the value contains a NUL
+    /// or is not shorter than 2 GiB.
     pub fn set(&mut self, key: &str, value: impl Into<String>) -> Result<(), ImageError> {
         let allowed = |b: u8| b.is_ascii_alphanumeric() || b == b'_' || b == b'-';
         if key.is_empty() || key.len() > LONGEST_KEY || !key.bytes().all(allowed) {
@@ -53,13 +55,13 @@ impl Metadata {
         Ok(())
     }
 
-    /// The value of a key, if the key is set.
+    /// Returns the value of a key, if the key is set.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.iter()
             .find_map(|(k, value)| (k == key).then_some(value))
     }
 
-    /// All keys and values.
+    /// Iterates over all keys and values.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.0
             .iter()

@@ -1,9 +1,9 @@
-//! Pictures and the files they are kept in.
+//! Pictures and their files.
 //!
-//! A picture holds linear radiance. EXR keeps it as it is, in 32-bit floats; PNG shows it: times
-//! `2^exposure`, through the sRGB curve, to 8 bits. Both say in their metadata how they were made,
-//! and both are written whole or not at all. Each is a feature of this crate, `exr` and `png`, without
-//! which such pictures are refused.
+//! A picture holds linear radiance. EXR stores it unchanged, in 32-bit floats. PNG stores it for
+//! display: multiplied by `2^exposure`, through the sRGB curve, in 8 bits. The metadata of both
+//! record how the picture was made. Both are written whole or not at all. Each is a feature of this
+//! crate, `exr` and `png`; without the feature, pictures of that kind are refused.
 
 pub mod compare;
 mod counts;
@@ -26,37 +26,37 @@ use crate::replace_file::replace_file;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Linear RGB (sRGB primaries), row by row from the top, each row from the left.
+/// A picture in linear RGB (sRGB primaries), row by row from the top, each row from the left.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct Image {
     pub width: u32,
     pub height: u32,
     pub pixels: Vec<[f64; 3]>,
-    /// Where it lies in a larger picture, if it is cut out of one. EXR keeps it (as `dataWindow` within
-    /// `displayWindow`), PNG does not.
+    /// The picture's place in a larger one, if it is a crop. EXR stores the place (as `dataWindow`
+    /// within `displayWindow`), PNG does not.
     pub window: Option<Window>,
 }
 
 /// The place of a picture in a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// Column and row of its top left pixel.
+    /// Column and row of the picture's top left pixel in the larger picture.
     pub origin: [u32; 2],
     /// Width and height of the larger picture.
     pub film: [u32; 2],
 }
 
-/// One more value of each pixel, for EXR.
+/// A further value of each pixel, for EXR.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// What it is called in the file, such as `depth.Z`: 1 to 31 bytes, no NUL, and neither R, G nor B.
+    /// The channel's name in the file, like `depth.Z`: 1 to 31 bytes, no NUL, and not R, G or B.
     pub name: String,
-    /// Row by row from the top, each row from the left.
+    /// The values row by row from the top, each row from the left.
     pub values: Vec<f64>,
 }
 
-/// How a picture becomes a file: by the crate's feature of that name.
+/// The file format of a picture. Each is a feature of the crate with that name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
     /// 8-bit sRGB of radiance times `2^exposure`.
@@ -67,12 +67,12 @@ pub enum Encoding {
 }
 
 impl Encoding {
-    /// What the name of a picture asks for, so that a wrong one is known before it is rendered.
-    /// `exposure` is in stops, by default 0.
+    /// Returns the encoding for the name of a picture, so that a wrong name is an error before the
+    /// picture is rendered. `exposure` is in stops, by default 0.
     ///
     /// # Errors
-    /// Names that end neither in `.png` nor in `.exr`; an exposure beyond 1,000 stops, or one for
-    /// EXR, which has none; a kind of pictures whose feature is off.
+    /// If the name ends neither in `.png` nor in `.exr`, the exposure is beyond 1,000 stops, an
+    /// exposure is set for EXR, which has none, or the feature for that format is off.
     ///
     /// ```
     /// use qrt_runtime::image::Encoding;
@@ -104,7 +104,7 @@ impl Encoding {
         }
     }
 
-    /// That its feature is off.
+    /// An error that the feature for this format is off.
     fn left_out(self) -> ImageError {
         ImageError::Feature {
             feature: match self {
@@ -115,12 +115,12 @@ impl Encoding {
     }
 }
 
-/// Writes a picture, all or nothing, and returns how many of its pixels the encoding had to clip
-/// (PNG: those with a channel that doesn't round to a level from 0 to 255; EXR: none).
+/// Writes a picture, all or nothing, and returns the number of pixels that the encoding clipped.
+/// PNG clips those with a channel that doesn't round to a level from 0 to 255; EXR clips none.
 ///
 /// # Errors
-/// See [`ImageError`]. No value is changed silently: what is not finite, or too large for EXR's
-/// 32 bits, is refused.
+/// See [`ImageError`]. No value is changed silently: a value that is not finite, or too large for
+/// EXR's 32 bits, is an error.
 ///
 /// ```
 /// use qrt_runtime::image::{Encoding, Image, Metadata, save};
@@ -140,11 +140,11 @@ pub fn save(
     save_layers(path, image, &[], metadata, encoding)
 }
 
-/// As [`save`], with more values of each pixel, which only EXR keeps.
+/// Writes a picture as [`save`] does, with further values of each pixel, which only EXR can store.
 ///
 /// # Errors
-/// As [`save`]; layers for PNG, or of another size, of a name that is none or there twice, or with a
-/// value that is not finite or too large.
+/// As [`save`]; also if there are layers for PNG, or if a layer has another size, an invalid name,
+/// the name of another channel, or a value that is not finite or too large.
 pub fn save_layers(
     path: &Path,
     image: &Image,
@@ -161,8 +161,8 @@ pub fn save_layers(
     Ok(clipped)
 }
 
-/// Writes a picture to whatever takes bytes, as [`save_layers`] does to a file: a buffer, a socket, a
-/// part of another file. What was written when an error came is not taken back.
+/// Writes a picture to any writer, as [`save_layers`] does to a file: to a buffer, a socket, or a
+/// part of another file. On an error, bytes that were already written stay written.
 ///
 /// # Errors
 /// As [`save_layers`]; an error of `out` is [`ImageError::Write`].
@@ -235,7 +235,7 @@ fn check_layers(image: &Image, layers: &[Layer], encoding: Encoding) -> Result<(
 }
 
 impl Image {
-    /// Where it lies: by itself, where it is all.
+    /// Returns the window of the picture, or a window of its own size if it is not a crop.
     fn window(&self) -> Window {
         self.window.unwrap_or(Window {
             origin: [0, 0],
@@ -251,7 +251,7 @@ impl Image {
             ..
         } = self;
         let Window { origin, film } = self.window();
-        // What PNG and EXR can say of a size.
+        // The largest size that PNG and EXR can store.
         let largest = (1 << 31) - 1;
         let shape =
             (1..=largest).contains(&width)
@@ -301,38 +301,39 @@ fn channel_name(channel: usize) -> &'static str {
     ["r", "g", "b"].get(channel).copied().unwrap_or("?")
 }
 
-/// Why a picture can't be written or read.
+/// An error of writing or reading a picture.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs)]
 pub enum ImageError {
-    /// Neither `.png` nor `.exr`.
+    /// The name ends neither in `.png` nor in `.exr`.
     #[error(
         "`{}` does not say which kind of picture it is: end its name in `.png` or `.exr`",
         .path.display()
     )]
     Extension { path: PathBuf },
-    /// Pictures of a kind that is not built.
+    /// The picture has a format whose feature is off.
     #[error(
         "qrt was built without its feature `{feature}`, and writes no .{feature}: add the feature to \
          the dependency"
     )]
     Feature { feature: &'static str },
-    /// Not a number of stops between -1,000 and 1,000.
+    /// The exposure is not a number of stops between -1,000 and 1,000.
     #[error("an exposure of {exposure} stops; it must lie between -1000 and 1000")]
     Exposure { exposure: f64 },
-    /// An exposure for EXR, which is linear.
+    /// An exposure is set for EXR, which is linear.
     #[error(
         "an EXR picture keeps linear radiance and has no exposure: leave it out, or write a `.png`"
     )]
     ExposureOfExr,
-    /// A side of 0 or too long, pixels that don't fill it, or a window that it does not fit in.
+    /// A side is 0 or too long, the pixels don't fill the picture, or it does not fit into its
+    /// window.
     #[error("a picture of {width} x {height} cannot be made of {pixels} pixels")]
     Shape {
         width: u32,
         height: u32,
         pixels: usize,
     },
-    /// An exposure that is NaN or infinite.
+    /// A value is NaN or infinite.
     #[error(
         "pixel ({x}, {y}), channel {}, is {value}, which is no radiance",
         channel_name(*.channel)
@@ -343,7 +344,7 @@ pub enum ImageError {
         channel: usize,
         value: f64,
     },
-    /// Beyond a 32-bit float.
+    /// A value is too large for a 32-bit float.
     #[error(
         "pixel ({x}, {y}), channel {}, is {value:e}: EXR's 32-bit floats end at {:e}",
         channel_name(*.channel), f32::MAX
@@ -354,28 +355,28 @@ pub enum ImageError {
         channel: usize,
         value: f64,
     },
-    /// Not a key of metadata.
+    /// The key of metadata is not valid.
     #[error("`{key}` is no key of metadata: 1 to 27 ASCII letters, digits, `_` or `-`")]
     Key { key: String },
-    /// Not a value of metadata.
+    /// The value of metadata is not valid.
     #[error("the value of `{key}` contains a NUL or is larger than 2 GiB")]
     Value { key: String },
-    /// Not a layer that can be kept.
+    /// The layer cannot be stored.
     #[error("layer `{name}`: {reason}")]
     Layer { name: String, reason: &'static str },
-    /// The file system refused.
+    /// The file system failed.
     #[error("`{}`: {source}", .path.display())]
     Io { path: PathBuf, source: io::Error },
-    /// What the picture or the counts are written to refused.
+    /// The writer of the picture or the counts failed.
     #[error("{0}")]
     Write(#[from] io::Error),
-    /// Not a file that can be read as a picture.
+    /// The file cannot be read as a picture.
     #[error("`{}`: {reason}", .path.display())]
     Decode { path: PathBuf, reason: String },
 }
 
 impl ImageError {
-    /// The same of a file, where it is that of a writer.
+    /// Adds the path to an error of the writer; returns other errors unchanged.
     fn at(self, path: &Path) -> Self {
         let path = path.to_path_buf();
         match self {

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufReader, Write};
 use std::path::Path;
 
-/// Writes the picture, each value times `scale`, and returns how many pixels were clipped.
+/// Writes the picture, each value multiplied by `scale`, and returns the number of clipped pixels.
 pub(super) fn write(
     out: impl Write,
     image: &Image,
@@ -26,7 +26,7 @@ pub(super) fn write(
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     for (key, value) in metadata.iter() {
         let keyword = format!("{PREFIX}{key}");
-        // tEXt is Latin-1 and read by everything; iTXt is UTF-8.
+        // tEXt is Latin-1, and every program reads it; iTXt is UTF-8.
         if value.is_ascii() {
             encoder.add_text_chunk(keyword, value.to_owned())?;
         } else {
@@ -39,10 +39,10 @@ pub(super) fn write(
     Ok(clipped)
 }
 
-/// What a PNG written by qrt says of itself.
+/// Reads the metadata of a PNG written by qrt.
 ///
 /// # Errors
-/// If the file cannot be read or is no PNG.
+/// If the file cannot be read or is not a PNG.
 pub fn read_png_metadata(path: &Path) -> Result<Metadata, ImageError> {
     let io = |source| ImageError::Io {
         path: path.to_path_buf(),

@@ -1,6 +1,6 @@
 //! The display transform: linear light to the 8-bit levels of sRGB (IEC 61966-2-1).
 
-/// The sRGB transfer function: linear 0..1 to encoded 0..1.
+/// The sRGB transfer function: linear 0 to 1 to encoded 0 to 1.
 #[cfg(any(test, feature = "png"))]
 pub(super) fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
@@ -10,8 +10,8 @@ pub(super) fn encode(linear: f64) -> f64 {
     }
 }
 
-/// The inverse of the sRGB transfer function: a level from 0 to 1, as PNG keeps it, to linear light from
-/// 0 to 1 (IEC 61966-2-1).
+/// The inverse of the sRGB transfer function: an encoded level from 0 to 1, as in PNG, to linear
+/// light from 0 to 1 (IEC 61966-2-1).
 pub fn decode(encoded: f64) -> f64 {
     if encoded <= 0.04045 {
         encoded / 12.92
@@ -20,8 +20,8 @@ pub fn decode(encoded: f64) -> f64 {
     }
 }
 
-/// The 8-bit level nearest to a linear value, and whether the value lies outside what 8 bits show:
-/// nearer to a level below 0 or above 255 than to those.
+/// The 8-bit level nearest to a linear value, and true if the value is clipped: if its nearest
+/// level would be below 0 or above 255.
 #[cfg(any(test, feature = "png"))]
 pub(super) fn level(linear: f64) -> (u8, bool) {
     let level = libm::floor(encode(linear) * 255.0 + 0.5);

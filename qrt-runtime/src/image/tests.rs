@@ -53,8 +53,8 @@ fn decode_png(path: &Path) -> (png::OutputInfo, Vec<u8>, Option<png::SrgbRenderi
 fn a_png_shows_rows_from_the_top_in_srgb() {
     let folder = Scratch::new();
     let path = folder.path("p.png");
-    // The closed form's levels for 0, 0.5, 1, 0.18, 0.001, 0.0031308 by hand: 12.92 * 0.001 * 255 =
-    // 3.29; 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354; of 0.18, 0.4613.
+    // The levels for 0, 0.5, 1, 0.18, 0.001, 0.0031308 by hand from the closed form: 12.92 * 0.001
+    // * 255 = 3.29; 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354; for 0.18, 0.4613.
     let pixels = vec![
         [0.0, 0.5, 1.0],
         [0.18, 0.001, 0.0],
@@ -109,7 +109,7 @@ fn exposure_counts_in_stops_and_clipped_pixels_are_counted() {
     assert_eq!(levels[6..], [0; 6]);
     assert_eq!(save(0.0).0, 2);
     assert_eq!(save(-10.0).0, 1);
-    // 2^1000 times 3 is infinite, and 0 stays black.
+    // 2^1000 times 3 is infinite and is clipped; 0 stays black.
     let (clipped, levels) = save(1000.0);
     assert_eq!((clipped, &levels[9..]), (3, &[0; 3][..]));
     assert_eq!(save(-1000.0).1, [0; 12]);
@@ -188,7 +188,7 @@ fn an_exr_says_where_it_was_cut_out() {
         let shown = read.attributes.display_window;
         assert_eq!((shown.position.x(), shown.position.y()), (0, 0));
         assert_eq!((shown.size.x(), shown.size.y()), display);
-        // Its scan lines are numbered from there.
+        // The scan lines are numbered from the top of the window.
         let (found, expected) = (decode_exr(&path).0, gradient(5, 3));
         let rounded = |pixel: &[f64; 3]| pixel.map(|value| f64::from(value as f32));
         let expected: Vec<_> = expected.pixels.iter().map(rounded).collect();

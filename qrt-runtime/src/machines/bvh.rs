@@ -1,11 +1,12 @@
 //! A bounding volume hierarchy in front of the tracer's own intersection routine.
 //!
 //! Trying every face is what the circuit does, and what the real machine does while faces are few.
-//! For a mesh it narrows the faces down: a ray walks a tree of boxes, eight to a node, and only the
-//! faces of the leaves it reaches are tried, four at once. A few large faces, a room's walls, all rays
-//! try first, and those that come near nothing else walk no tree. What is tried runs through
-//! [`qrt_core::tracer::cross`] with the same constants, and ties go to the face that a loop over
-//! all faces would have kept: the result is the loop's, bit for bit.
+//! For a mesh, the hierarchy narrows the faces down: a ray walks a tree of boxes, eight to a node,
+//! and the search tries only the faces of the leaves that the ray reaches, four at once. All rays
+//! first try a few large faces, for example a room's walls; a ray that comes near nothing else
+//! walks no tree. Every trial runs through [`qrt_core::tracer::cross`] with the same constants.
+//! Ties go to the face that a loop over all faces would keep. Therefore the result is that of the
+//! loop, bit for bit.
 
 mod approach;
 mod beam;
@@ -23,60 +24,63 @@ use rays::{Ends, FindNearest, FindOccluded, Scratch};
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// Boxes of a node.
+/// Number of boxes of a node.
 const WIDE: usize = 8;
 
-/// Faces of a packet.
+/// Number of faces of a packet.
 const FACES: usize = 4;
 
-/// Up to this many faces a loop over all of them is faster (`cargo bench --bench tracing`).
+/// Largest number of faces for which a loop over all of them is faster
+/// (`cargo bench --bench tracing`).
 pub(crate) const FEW_FACES: usize = 72;
 
-/// Up to this many faces that emit or hide an emitter of their plane, a last ray asks them first.
+/// Largest number of faces that emit or hide an emitter of their plane for which a path's last ray
+/// tests these faces first.
 const FEW_EMITTERS: usize = 16;
 
-/// The children of a node: their boxes by corner and axis, and where they are.
+/// The children of a node: their boxes by corner and axis, and references to them.
 #[derive(Clone, Debug)]
 struct Node {
-    /// `[low, high][axis][child]`, rounded outwards; an absent child's box is empty.
+    /// `[low, high][axis][child]`, rounded outwards; the box of an absent child is empty.
     boxes: [[[f32; WIDE]; 3]; 2],
     children: [Child; WIDE],
 }
 
-/// What a node's box holds.
+/// The content of a node's box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Child {
     Absent,
     Node(u32),
-    /// Its number and its faces' main axis, which is known here before the packet is there.
+    /// The packet's number, and the main axis of its faces. The axis is stored here so that it is
+    /// known before the packet is loaded.
     Packet(u32, u8),
 }
 
 /// The hierarchy over the faces of a [`Geometry`].
 #[derive(Clone, Debug)]
 pub(crate) struct Bvh {
-    /// In the order of their ranks.
+    /// The large faces, in the order of their ranks.
     large: Vec<LargeFace>,
-    /// The tree over the others: the least and the greatest corner.
+    /// Least and greatest corner of the tree over the other faces.
     bounds: [[f64; 3]; 2],
-    /// The greatest of the corners' coordinates.
+    /// The greatest absolute coordinate of these corners.
     greatest: f64,
     nodes: Vec<Node>,
-    /// Levels of nodes.
+    /// Number of levels of nodes.
     levels: usize,
     packets: Vec<Packet>,
     /// By face, in the order of [`Geometry::faces`]: true if it emits.
     emits: Vec<bool>,
-    /// By face: the numbers of the emitting faces on its plane, and the first of them that it may
-    /// cover.
+    /// By face: the numbers of the emitting faces on the face's plane, and the first of these that
+    /// the face may cover.
     emitters: Vec<(Range<u32>, u32)>,
-    /// By face; beyond the last there is none.
+    /// By face: its label. After the last face, [`NO_FACE`].
     labels: Vec<u32>,
     few_emitters: bool,
 }
 
 impl Bvh {
-    /// Over all faces of `geometry`.
+    /// Builds the hierarchy over all faces of `geometry`.
     pub(crate) fn new(geometry: &Geometry) -> Self {
         let faces = &geometry.faces;
         let boxes = build::boxes(geometry);
@@ -123,7 +127,7 @@ impl Bvh {
 pub(crate) struct Indexed<'a> {
     geometry: &'a Geometry,
     bvh: &'a Bvh,
-    /// Lent to one walk after the other.
+    /// Buffers that successive walks reuse.
     scratch: RefCell<Scratch>,
 }
 
@@ -147,7 +151,7 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
     ) -> Hit<Lanes<'i, S, W>> {
         let (distance, rank) = cx.apart(FindNearest {
             bvh: self.bvh,
-            // Of a copy, so that the tracer's own can stay in registers.
+            // A reference to a copy, so that the tracer's own ray can stay in registers.
             ray: &{ *ray },
             wanted,
             scratch: &mut self.scratch.borrow_mut(),
@@ -188,7 +192,7 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
 }
 
 impl Indexed<'_> {
-    /// Whether a face stands before the end of each `wanted` ray.
+    /// Returns for each `wanted` ray whether a face stands before its end.
     #[inline(always)]
     fn hidden<'i, S: pulp::Simd, const W: usize>(
         &self,
@@ -207,12 +211,12 @@ impl Indexed<'_> {
     }
 }
 
-/// What a ray is tried against. (One type, so that the tracer is compiled once for both.)
+/// The faces that a ray is tried against. (One type, so that the tracer is compiled once for both.)
 #[allow(clippy::large_enum_variant)] // There is one for all rays of a batch.
 pub(crate) enum Faces<'a> {
     /// All faces, in turn.
     Few(&'a Geometry),
-    /// Those of the boxes that it meets.
+    /// The faces of the boxes that the ray meets.
     Many(Indexed<'a>),
 }
 

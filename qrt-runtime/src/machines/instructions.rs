@@ -14,18 +14,18 @@ named! {
         Avx2 = "avx2",
         /// 128 bits of AArch64.
         Neon = "neon",
-        /// What every processor of the target has.
+        /// The instructions that every processor of the target has.
         Portable = "portable",
     }
 }
 
-/// The environment asks for an instruction set that is not to be had.
+/// The environment variable names an instruction set that this processor does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}={asked}: this processor has {}", InstructionSet::VARIABLE, listed(.available))]
 pub struct InstructionsError {
-    /// What it asks for.
+    /// The name in the environment variable.
     pub asked: String,
-    /// What this processor has.
+    /// The instruction sets that this processor has.
     pub available: Vec<InstructionSet>,
 }
 
@@ -35,17 +35,17 @@ fn listed(sets: &[InstructionSet]) -> String {
 }
 
 impl InstructionSet {
-    /// The variable of the environment that names the instruction set that all machines take which are
-    /// told of none, such as `QRT_INSTRUCTIONS=portable`. It changes their speed alone.
+    /// Name of the environment variable that sets the instruction set of all machines that are
+    /// created without one, for example `QRT_INSTRUCTIONS=portable`. It changes only their speed.
     pub const VARIABLE: &'static str = "QRT_INSTRUCTIONS";
 
-    /// Those that this processor has, the widest first.
+    /// Returns the instruction sets that this processor has, the widest first.
     pub fn available() -> Vec<Self> {
         Self::ALL.into_iter().filter(|set| set.exists()).collect()
     }
 
-    /// The widest that this processor has, or the one that [`InstructionSet::VARIABLE`] names when it is
-    /// first asked for.
+    /// Returns the instruction set that [`InstructionSet::VARIABLE`] names at the first call, or
+    /// else the widest that this processor has.
     pub fn widest() -> Self {
         static WIDEST: OnceLock<InstructionSet> = OnceLock::new();
         *WIDEST.get_or_init(|| match Self::asked() {
@@ -54,10 +54,10 @@ impl InstructionSet {
         })
     }
 
-    /// The one that [`InstructionSet::VARIABLE`] names, if it is set.
+    /// Returns the instruction set that [`InstructionSet::VARIABLE`] names, if the variable is set.
     ///
     /// # Errors
-    /// If it names none that this processor has; machines take the widest then.
+    /// If it names no instruction set that this processor has; machines then use the widest.
     pub fn asked() -> Result<Option<Self>, InstructionsError> {
         std::env::var_os(Self::VARIABLE).map_or(Ok(None), |name| Self::named(&name).map(Some))
     }
@@ -95,7 +95,8 @@ impl InstructionSet {
         self == Self::Portable
     }
 
-    /// Runs `operation` compiled for this instruction set, or portably where there is none such.
+    /// Runs `operation` compiled for this instruction set, or portably if the processor does not
+    /// have it.
     #[inline(always)]
     pub(crate) fn dispatch<W: WithSimd>(self, operation: W) -> W::Output {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -122,8 +123,9 @@ impl InstructionSet {
     }
 }
 
-/// Runs `work` in registers of at most 256 bits. Eight numbers of single precision and four of double
-/// fill them, and half-filled wider ones would be loaded through a mask, and divided at half the speed.
+/// Runs `work` in registers of at most 256 bits. Eight single-precision or four double-precision
+/// numbers fill them. Half-filled wider registers would be loaded through a mask and divided at
+/// half the speed.
 #[inline(always)]
 pub(crate) fn at_256_bits<S: pulp::Simd, W: WithSimd>(simd: S, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]

@@ -1,8 +1,8 @@
 //! The tracer's arithmetic over SIMD lanes of `f64`.
 //!
-//! One path a lane. Every operation is a single correctly rounded IEEE 754 operation (no fused
-//! multiply-add) or a function of the `libm` crate, so that AVX-512, AVX2, NEON and plain code
-//! give the same bits.
+//! Each lane holds one path. Every operation is a single correctly rounded IEEE 754 operation (no
+//! fused multiply-add) or a function of the `libm` crate, so that AVX-512, AVX2, NEON and plain
+//! code give the same bits.
 
 use super::masks::bits;
 use pulp::bytemuck;
@@ -11,34 +11,35 @@ use qrt_core::sampling::cell_centre;
 use qrt_core::tracer::{Arith, Coordinate, Sampled, Segment, Work};
 use std::cell::RefCell;
 
-/// Paths traced between two hand-overs of sample indices.
+/// Number of paths of a block, whose sample indices are filled in together.
 pub(crate) const BLOCK: usize = 256;
 
-/// What a block of paths reads: indices by the slot of their coordinate, and the pixel of each path.
+/// The input of a block of paths: indices by the slot of their coordinate, and the pixel of each
+/// path.
 pub(crate) struct Inputs {
     pub(crate) indices: Vec<[u32; BLOCK]>,
     pub(crate) column: [f64; BLOCK],
     pub(crate) row: [f64; BLOCK],
-    /// Where rays and what they meet are noted, if that is wanted.
+    /// Records of rays and their hits, if these are wanted.
     pub(crate) watched: Option<RefCell<Vec<Watched>>>,
 }
 
-/// A ray of each path of a block, and what it meets, in stage units: see [`Segment`].
+/// A ray of each path of a block, and its hit, in stage units: see [`Segment`].
 #[derive(Clone, Debug)]
 pub(crate) struct Watched {
     pub(crate) origin: [[f64; BLOCK]; 3],
     pub(crate) direction: [[f64; BLOCK]; 3],
     pub(crate) distance: [f64; BLOCK],
     pub(crate) face: [u64; BLOCK],
-    /// 1 where it holds and 0 elsewhere.
+    /// 1 for true and 0 for false, here and in `found`.
     pub(crate) goes: [f64; BLOCK],
     pub(crate) found: [f64; BLOCK],
-    /// The same; -1 where the search does not tell.
+    /// As `goes`; -1 if the search does not determine the side.
     pub(crate) front: [f64; BLOCK],
 }
 
 impl Watched {
-    /// A ray that no path has.
+    /// An empty record: no path has this ray.
     pub(crate) const NONE: Self = Self {
         origin: [[0.0; BLOCK]; 3],
         direction: [[0.0; BLOCK]; 3],
@@ -50,7 +51,8 @@ impl Watched {
     };
 }
 
-/// Lanes of one instruction set, `W` registers a value, standing at `first` in a block.
+/// SIMD lanes of one instruction set, with `W` registers per value. The first lane holds path
+/// `first` of a block.
 #[derive(Clone, Copy)]
 pub(crate) struct Lanes<'a, S, const W: usize> {
     pub(crate) simd: S,
@@ -58,19 +60,19 @@ pub(crate) struct Lanes<'a, S, const W: usize> {
     pub(crate) first: usize,
 }
 
-/// The lanes of `vector` as a slice.
+/// Returns the lanes of `vector` as a slice.
 #[inline(always)]
 pub(crate) fn lanes<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &[T]) -> &[U] {
     bytemuck::cast_slice(vector)
 }
 
-/// The lanes of `vector`, to be set.
+/// Returns the lanes of `vector` as a mutable slice.
 #[inline(always)]
 pub(crate) fn slots<T: bytemuck::Pod, U: bytemuck::Pod>(vector: &mut [T]) -> &mut [U] {
     bytemuck::cast_slice_mut(vector)
 }
 
-/// `f` of every lane; not inlined, for the calls outweigh it.
+/// Applies `f` to every lane. Not inlined, because the calls of `f` cost more.
 #[inline(never)]
 fn apply(lanes: &mut [f64], f: impl Fn(f64) -> f64) {
     for lane in lanes {
@@ -78,7 +80,7 @@ fn apply(lanes: &mut [f64], f: impl Fn(f64) -> f64) {
     }
 }
 
-/// `f` of every lane of two values.
+/// Applies `f` to every lane of two values.
 #[inline(never)]
 fn apply_to_pairs(lanes: &mut [f64], others: &[f64], f: fn(f64, f64) -> f64) {
     for (lane, &other) in lanes.iter_mut().zip(others) {
@@ -86,10 +88,11 @@ fn apply_to_pairs(lanes: &mut [f64], others: &[f64], f: fn(f64, f64) -> f64) {
     }
 }
 
-// What goes lane by lane through memory is not inlined: it gains nothing from the instruction set,
-// and its loops, unrolled all over the tracer, cost minutes of compiling.
+// The functions below that go through memory lane by lane gain nothing from the instruction set.
+// Most of them are not inlined: their loops, unrolled all over the tracer, cost minutes of compile
+// time.
 
-/// Row `rows[lane]` of `table`, column by column.
+/// Reads row `rows[lane]` of `table` for each lane, into `columns` column by column.
 #[inline(always)]
 fn gather_rows<const K: usize>(table: &[[f64; K]], rows: &[u64], columns: &mut [f64]) {
     let count = rows.len();
@@ -101,7 +104,7 @@ fn gather_rows<const K: usize>(table: &[[f64; K]], rows: &[u64], columns: &mut [
     }
 }
 
-/// Replaces each row by the entry of `table` there.
+/// Replaces each row number by the entry of `table` in that row.
 #[inline(never)]
 fn gather_entries(table: &[u32], rows: &mut [u64]) {
     for row in rows {
@@ -142,8 +145,8 @@ fn evaluate(function: &Sampled, indices: &[u64], values: &mut [f64]) {
     }
 }
 
-/// Work in a function of its own, which is compiled apart from the tracer, for the same
-/// instructions.
+/// Work that runs in a function of its own. The compiler compiles it separately from the tracer,
+/// for the same instruction set.
 struct Apart<'a, A: Arith, T: Work<A>> {
     cx: &'a mut A,
     work: T,
@@ -164,11 +167,11 @@ impl<A: Arith, T: Work<A>> pulp::WithSimd for Apart<'_, A, T> {
     }
 }
 
-/// Applies an operation register by register. A macro and not a function of a closure: a closure
-/// is compiled without the instruction set until it is inlined, which is left to chance.
+/// Applies an operation register by register. It is a macro, not a function that takes a closure: a
+/// closure uses the instruction set only if it is inlined, which is left to chance.
 macro_rules! each {
     ($cx:ident, $operation:ident, $first:ident $(, $rest:ident)*) => {{
-        // No loop: thousands of them, one an operation, cost minutes of compiling.
+        // No loop: one loop for each of thousands of operations would cost minutes of compile time.
         const { assert!(W == 1 || W == 2) };
         let mut result = [$cx.simd.$operation($first[0] $(, $rest[0])*); W];
         if W == 2 {
@@ -179,7 +182,7 @@ macro_rules! each {
 }
 
 impl<'a, S: pulp::Simd> Lanes<'a, S, 1> {
-    /// One register a value, at the start of a block.
+    /// Creates lanes with one register per value, at the start of a block.
     #[inline(always)]
     pub(crate) fn single(simd: S, inputs: &'a Inputs) -> Self {
         let first = 0;
@@ -192,7 +195,7 @@ impl<'a, S: pulp::Simd> Lanes<'a, S, 1> {
 }
 
 impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
-    /// Notes a ray of the paths that are traced.
+    /// Records a ray of each path in the lanes.
     #[cold]
     #[inline(never)]
     fn watch(&self, watched: &RefCell<Vec<Watched>>, depth: usize, segment: &Segment<Self>) {
@@ -221,7 +224,7 @@ impl<S: pulp::Simd, const W: usize> Lanes<'_, S, W> {
         ray.face[range].copy_from_slice(lanes(&segment.face));
     }
 
-    /// Paths in a value.
+    /// Number of paths in a value.
     pub(crate) const COUNT: usize = W * S::F64_LANES;
 }
 
@@ -262,7 +265,8 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     fn sqrt(&mut self, a: Self::Real) -> Self::Real {
         each!(self, sqrt_f64s, a)
     }
-    // Not the instruction sets' own: they differ in what they make of NaN and of zeros' signs.
+    // Not the minimum and maximum of the instruction sets: these differ for NaN and for the signs
+    // of zeros.
     #[inline(always)]
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real {
         let less = self.less(a, b);
@@ -381,7 +385,7 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
                 output: &mut output,
             },
         );
-        // It was done.
+        // `in_a_function` has run the work.
         #[allow(clippy::expect_used)]
         output.expect("the work's output")
     }

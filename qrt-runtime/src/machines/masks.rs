@@ -3,7 +3,7 @@
 use pulp::Simd;
 use pulp::bytemuck::{self, NoUninit};
 
-/// The lanes in which `mask` holds.
+/// Returns the lanes in which `mask` is true.
 #[inline(always)]
 pub(crate) fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
     #[cfg(target_arch = "x86_64")]
@@ -22,7 +22,7 @@ pub(crate) fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
     })
 }
 
-/// The lanes of single precision in which `mask` holds.
+/// Returns the single-precision lanes in which `mask` is true.
 #[inline(always)]
 pub(crate) fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
     #[cfg(target_arch = "x86_64")]
@@ -41,14 +41,15 @@ pub(crate) fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
     })
 }
 
-/// `value`, if it is of this type: known when the code is compiled.
+/// Returns `value` if it has type `B`, which is known at compile time.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
     (value as &dyn std::any::Any).downcast_ref()
 }
 
-/// The bits of a mask that has one for each lane: a mask register, or the truth value of a single lane.
+/// Returns the bits of a mask that has one bit for each lane: a mask register, or the truth value
+/// of a single lane.
 #[inline(always)]
 fn short<M: NoUninit>(mask: &M) -> Option<u32> {
     match *bytemuck::bytes_of(mask) {

@@ -1,9 +1,10 @@
-//! Machines: what runs the tracer.
+//! Machines, which run the tracer or the program compiled from it.
 //!
-//! [`Real`] reads it over lanes of `f64`: pictures, meshes, and the limit that every finite width
-//! converges to. [`Fixed`] evaluates the program that it is compiled to, operation by operation, on
-//! integers of its registers' widths. [`Gates`] executes the circuit of that program, gate by gate.
-//! [`run`] does so with routines written by hand. [`statevector`] follows amplitudes: the counting
+//! [`Real`] runs the tracer over lanes of `f64`: for pictures, for meshes, and as the limit that
+//! every finite width converges to. [`Fixed`] evaluates the program compiled from the tracer,
+//! operation by operation, on integers of its registers' widths. [`Gates`] executes the circuit of
+//! that program, gate by gate. [`run`] runs hand-written routines on the last two and by the
+//! definition of their operations. [`statevector`] computes amplitudes: it runs the counting
 //! circuit around an oracle, gate by gate.
 
 mod bvh;

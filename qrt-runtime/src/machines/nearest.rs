@@ -1,8 +1,8 @@
 //! The oracle of nearest hits, run by the fixed or the gates machine on every basis state of rays.
 //!
-//! Which faces are marked is what the circuit says of them, one basis state (ray, face) after the
-//! other; nothing else knows of it. The gates machine runs compute, flip and uncompute, and looks
-//! at every qubit and every sign: work must be zero again, inputs as they were.
+//! The circuit alone decides which faces are marked, one basis state (ray, face) after the other.
+//! The gates machine runs compute, flip and uncompute, and checks every qubit and every sign: work
+//! qubits must be zero again, and inputs unchanged.
 
 use super::fixed::{self, Fixed};
 use super::gates::{Gates, Rows};
@@ -17,24 +17,25 @@ use std::sync::Arc;
 /// A face that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// The face's distance, in ulps.
+    /// Distance of the face, in ulps.
     pub distance: i64,
-    /// The face's number.
+    /// Number of the face.
     pub primitive: u32,
 }
 
-/// A path's first ray, and the nearest that is known of it.
+/// The first ray of a path, and the nearest face known for it so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// Column and row of the path's pixel.
     pub pixel: [u32; 2],
     /// The path's index.
     pub id: u64,
-    /// What marked faces are nearer than.
+    /// The bound: the oracle marks only faces that are nearer. Without a bound it marks all faces
+    /// that the ray meets.
     pub best: Option<Candidate>,
 }
 
-/// What the oracle does to all basis states of some rays.
+/// Results of the oracle on all basis states of some rays.
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
     states: usize,
@@ -43,12 +44,13 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// By basis state of ray number `ray`: whether its phase is flipped.
+    /// Marks of ray number `ray`, by basis state: true if the oracle flips its phase.
     pub fn marks(&self, ray: usize) -> &[bool] {
         &self.marks[ray * self.states..][..self.states]
     }
 
-    /// By basis state of ray number `ray`: the face's distance in ulps, if it meets the face.
+    /// Distances of ray number `ray`, by basis state: the face's distance in ulps, if the ray meets
+    /// the face.
     pub fn distances(&self, ray: usize) -> &[i64] {
         &self.distances[ray * self.states..][..self.states]
     }
@@ -69,27 +71,27 @@ enum Machine {
     Gates(Box<GatesCircuit>),
 }
 
-/// Compute, flip and uncompute, gate by gate, and where compute puts what.
+/// The circuits of compute, flip and uncompute, and the qubits of compute's inputs and distance.
 struct GatesCircuit {
     gates: Gates,
     rows: Pool<Rows>,
-    /// By input, as in [`RayBlock::inputs`].
+    /// Qubits by input, as in [`RayBlock::inputs`].
     inputs: [Vec<Qubit>; 4],
     distance: Vec<Qubit>,
     compute: Circuit,
 }
 
-/// Basis states, a lane each.
+/// Basis states, one per lane.
 #[derive(Default)]
 struct RayBlock {
-    /// By input: path index, primitive, and the nearest so far.
+    /// Contents by input: path index, primitive, and distance and primitive of the nearest so far.
     inputs: [Vec<u64>; 4],
-    /// Lanes in turn that belong to one ray: whose, and how many.
+    /// Runs of consecutive lanes that belong to one ray: the ray, and the number of lanes.
     runs: Vec<(Asked, usize)>,
 }
 
 impl NearestMachine {
-    /// The oracle on the fixed machine.
+    /// Creates a fixed machine that runs the oracle.
     pub fn fixed(oracle: Arc<NearestOracle>, seed: u64) -> Self {
         let words: Vec<Word> = oracle.outputs().into_iter().flatten().collect();
         let fixed = Box::new(Fixed::new(&oracle.program, &words));
@@ -103,10 +105,10 @@ impl NearestMachine {
         }
     }
 
-    /// The oracle on the gates machine.
+    /// Creates a gates machine that runs the oracle.
     ///
     /// # Errors
-    /// If the circuit is none: a defect of qrt.
+    /// If the gates are not a valid circuit: a defect of qrt.
     pub fn gates(oracle: Arc<NearestOracle>, seed: u64) -> Result<Self, Defect> {
         let whole = oracle.whole();
         let compute = oracle.program.instructions.len();
@@ -115,8 +117,8 @@ impl NearestMachine {
         Self::of_parts(oracle, parts, seed)
     }
 
-    /// The gates machine on circuits that are given, such as ones that were tampered with: compute,
-    /// flip and uncompute, as [`lower::parts`] makes them.
+    /// Creates a gates machine from given circuits, for example from circuits with a deliberate
+    /// error: compute, flip and uncompute, as [`lower::parts`] makes them.
     ///
     /// # Errors
     /// As [`NearestMachine::gates`].
@@ -152,10 +154,10 @@ impl NearestMachine {
         &self.oracle
     }
 
-    /// What the oracle does to every basis state of every one of these rays.
+    /// Runs the oracle on every basis state of every ray of `asked`.
     ///
     /// # Errors
-    /// The first defect that shows.
+    /// The first defect found.
     pub fn ask(&self, asked: &[Asked], answers: &mut Answers) -> Result<(), Defect> {
         let states = self.oracle.states();
         answers.states = states;
@@ -322,7 +324,7 @@ impl RayBlock {
     }
 }
 
-/// The inputs, in their order.
+/// The input registers, in the order of [`RayBlock::inputs`].
 fn registers(oracle: &NearestOracle) -> [RegisterId; 4] {
     [
         oracle.id,

@@ -1,13 +1,14 @@
 //! Oracles, run by the fixed machine, as native code or by the gates machine on paths of many
 //! pixels.
 //!
-//! All hand over, path by path, how many thresholds the path's colour exceeds: of a path's `2^c`
-//! indices, that many are good.
+//! Every machine returns, path by path, the number of thresholds that the path's colour exceeds: of
+//! a path's `2^c` indices, that many are good.
 //!
-//! The gates machine runs compute and uncompute once per path, and looks at every qubit between
-//! paths. The comparator enters the oracle only in the block between the two, which reads nothing
-//! else but the colour. So this block is run apart, for *every* pair of a colour and a comparator:
-//! which indices have their phase flipped follows exactly, `2^c` times cheaper than path by path.
+//! The gates machine runs compute and uncompute once per path, and checks every qubit between
+//! paths. The comparator enters the oracle only in the block between the two, and the only other
+//! input of that block is the colour. Therefore the machine runs this block separately, for *every*
+//! pair of a colour and a comparator. The indices whose phase is flipped follow exactly, `2^c`
+//! times cheaper than path by path.
 
 mod bounds;
 mod defect;
@@ -38,13 +39,13 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, PoisonError};
 
-/// An oracle of all three channels on a machine.
+/// An oracle of all three channels, or of one, on a machine.
 pub struct OracleMachine {
     oracle: Arc<Oracle>,
     seed: u64,
     primary_hits: Option<Box<dyn PrimaryHits>>,
-    /// What is read of every path: by channel the count, then, where they are wanted, by channel
-    /// the colour, and last the count of the luminance, where the oracle has it.
+    /// Operands that are read after each path: the count of each channel, then, if they are wanted,
+    /// the colour of each channel, and last the count of the luminance, if the oracle has it.
     outputs: Vec<Operand>,
     machine: Machine,
 }
@@ -60,8 +61,8 @@ enum Machine {
     },
     Gates {
         gates: Box<Gates>,
-        /// Those of a block of paths, so many of them, and what is kept of the operations of gates that are
-        /// not held, in so many bytes.
+        /// `at_once` rows for a block of paths, and at most `room` bytes of templates for
+        /// operations whose gates are not held in memory.
         rows: Pool<(Vec<Rows>, Templates<Template>)>,
         at_once: usize,
         room: usize,
@@ -69,32 +70,32 @@ enum Machine {
     },
 }
 
-/// A run of paths of one pixel, finished: by channel, and path by path in the order of path
-/// indices.
+/// A finished run of paths of one pixel: by channel, and path by path in the order of path indices.
 pub struct Finished<'a> {
-    /// The pixel's place in the list that was given.
+    /// Position of the pixel in the caller's list.
     pub pixel: usize,
     /// The path index of the first path.
     pub first_id: u64,
-    /// By channel: how many thresholds each path's colour exceeds, at most `2^c`. Of an oracle of
-    /// one channel, all but the first are empty: of a predicate's, it is 1 for each good path.
+    /// By channel: the number of thresholds that each path's colour exceeds, at most `2^c`. Of an
+    /// oracle of one channel, all but the first are empty; for a predicate's oracle, the number is
+    /// 1 for each good path.
     pub good: [&'a [i64]; 3],
-    /// The same of the luminance; empty unless the oracle has it.
+    /// The same for the luminance; empty unless the oracle has it.
     pub luminance: &'a [i64],
     /// By channel: each path's colour, in units of `2^-fraction` of the channel's scale. Empty
-    /// unless asked for.
+    /// unless the machine was created with colours.
     pub colours: [&'a [i64]; 3],
-    /// Queries that finding the paths' primary hits took; 0 unless that is asked of an oracle.
+    /// Queries that finding the paths' primary hits took; 0 unless an oracle finds them.
     pub queries: u64,
 }
 
 impl OracleMachine {
-    /// The fixed machine. `colours` says whether they are wanted beside the counts.
+    /// Creates a fixed machine. `colours` is true if colours are wanted beside the counts.
     pub fn fixed(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
         Self::fixed_on(InstructionSet::widest(), oracle, seed, colours)
     }
 
-    /// The fixed machine, with the instruction set that is given.
+    /// Creates a fixed machine that uses the instruction set `instructions`.
     pub fn fixed_on(
         instructions: InstructionSet,
         oracle: Arc<Oracle>,
@@ -121,10 +122,10 @@ impl OracleMachine {
         }
     }
 
-    /// The native machine: the oracle's program as code, `C`, which gives the same bits as the
-    /// fixed machine. Where there is no code ([`NativeOracle::WRITTEN`]), or no vectors for it (there are
-    /// for AVX-512 and AVX2) but the fixed machine has some, such as NEON, this is the fixed machine
-    /// itself.
+    /// Creates a native machine, which runs the oracle's program as native code `C` and gives the
+    /// same bits as the fixed machine. The result is the fixed machine itself if there is no code
+    /// ([`NativeOracle::WRITTEN`]). It is also the fixed machine on NEON, for which the fixed
+    /// machine has vectors and the code has none (it has vectors for AVX-512 and AVX2).
     pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
         let widest = InstructionSet::widest();
         if !C::WRITTEN || widest == InstructionSet::Neon {
@@ -134,11 +135,11 @@ impl OracleMachine {
         }
     }
 
-    /// The native machine, with the instruction set that is given: there is code for AVX-512, for
-    /// AVX2, and for a path at a time, which takes the place of all others.
+    /// Creates a native machine that uses the instruction set `instructions`. There is code for
+    /// AVX-512, for AVX2, and for one path at a time; all other instruction sets use the last.
     ///
     /// # Panics
-    /// When it runs, if there is no code: see [`NativeOracle::WRITTEN`].
+    /// If there is no code, when the machine runs: see [`NativeOracle::WRITTEN`].
     pub fn native_on<C: NativeOracle>(
         instructions: InstructionSet,
         oracle: Arc<Oracle>,
@@ -153,7 +154,7 @@ impl OracleMachine {
         Self::of(oracle, seed, outputs, machine)
     }
 
-    /// The gates machine. The block between compute and uncompute is tried here, for every colour
+    /// Creates a gates machine, and tests the block between compute and uncompute for every colour
     /// and comparator.
     ///
     /// # Errors
@@ -163,7 +164,8 @@ impl OracleMachine {
         Self::of_parts(oracle, parts, seed, colours)
     }
 
-    /// The gates machine on circuits that are given, such as ones that were tampered with.
+    /// Creates a gates machine from given circuits, for example from circuits with a deliberate
+    /// error.
     ///
     /// # Errors
     /// As [`OracleMachine::gates`].
@@ -197,7 +199,7 @@ impl OracleMachine {
         Ok(Self::of(oracle, seed, outputs, machine))
     }
 
-    /// With what finds the primary hits, if they are inputs of the oracle.
+    /// Sets the search for primary hits. An oracle needs one if primary hits are its inputs.
     pub fn with_primary_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
         self.primary_hits = Some(primary_hits);
         self
@@ -216,7 +218,7 @@ impl OracleMachine {
         }
     }
 
-    /// Paths that run together: a multiple of these leaves nothing idle.
+    /// Number of paths that run together. A multiple of it leaves no lanes idle.
     pub fn paths_at_once(&self) -> u64 {
         match &self.machine {
             Machine::Gates { gates, at_once, .. } => (at_once * gates.lanes()) as u64,
@@ -229,11 +231,11 @@ impl OracleMachine {
         1 << self.oracle.points.path_bits()
     }
 
-    /// Runs the paths `ids` of every pixel (column, row), and hands them over in the order of
-    /// pixels and path indices.
+    /// Runs the paths `ids` of every pixel (column, row), and passes the results to `finished` in
+    /// the order of pixels and path indices.
     ///
     /// # Errors
-    /// The first defect that shows.
+    /// The first defect found.
     pub fn trace(
         &self,
         pixels: &[[u32; 2]],
@@ -243,11 +245,11 @@ impl OracleMachine {
         self.trace_until(None, pixels, ids, finished)
     }
 
-    /// As [`OracleMachine::trace`], unless `cancel` is set, from any thread: paths that run together on
-    /// a circuit of very many gates may take a minute.
+    /// As [`OracleMachine::trace`], but stops when any thread sets `cancel`: on a circuit of very
+    /// many gates, the paths that run together may take a minute.
     ///
     /// # Errors
-    /// The first defect that shows; [`Defect::Cancelled`].
+    /// The first defect found; [`Defect::Cancelled`].
     pub fn trace_until(
         &self,
         cancel: Option<&AtomicBool>,
@@ -293,11 +295,11 @@ impl OracleMachine {
         Ok(())
     }
 
-    /// What one path's registers hold, after compute: the numbers that `words` read. The machine
-    /// then hands over no counts.
+    /// Runs compute on one path, and returns the numbers that `words` read from its registers. The
+    /// machine cannot return counts afterwards, so the call consumes it.
     ///
     /// # Errors
-    /// The first defect that shows.
+    /// The first defect found.
     pub(crate) fn read(
         mut self,
         words: &[Word],
@@ -330,14 +332,15 @@ impl OracleMachine {
         self.oracle.words(self.seed, pixel)
     }
 
-    /// Where among the outputs the count of the luminance is.
+    /// Position of the luminance's count among the outputs.
     fn luminance(&self) -> Option<usize> {
         let channels = &self.oracle.channels;
         let there = channels.iter().any(|c| c.number == LUMINANCE_CHANNEL);
         there.then(|| self.outputs.len() - 1)
     }
 
-    /// How many outputs are counts of channels, the luminance's apart: the first ones.
+    /// Number of outputs that are counts of channels other than the luminance. They are the first
+    /// outputs.
     fn counts(&self) -> usize {
         self.oracle.channels.len() - usize::from(self.luminance().is_some())
     }
@@ -420,7 +423,7 @@ impl OracleMachine {
         self.complete(block)
     }
 
-    /// Finds the paths' primary hits, where they are inputs of the oracle.
+    /// Finds the paths' primary hits, if these are inputs of the oracle.
     fn find_primary_hits(&self, block: &mut OracleBlock) -> Result<(), Defect> {
         block.queries.clear();
         block.queries.resize(block.runs.len(), 0);
@@ -450,10 +453,12 @@ impl OracleMachine {
         fixed.run(lanes, inputs, spans, &mut wanted);
     }
 
-    /// Adds the outputs that are the same on all paths, and cuts counts to the comparators' number.
+    /// Fills in the outputs that are constant, and clamps counts to the number of comparator
+    /// values.
     ///
     /// # Errors
-    /// [`Defect::OutOfBounds`], of the first path whose colour is beyond its bound by more than rounding.
+    /// [`Defect::OutOfBounds`], of the first path whose colour exceeds its bound by more than
+    /// rounding.
     fn complete(&self, block: &mut OracleBlock) -> Result<(), Defect> {
         let count = block.ids.len();
         for (output, values) in self.outputs.iter().zip(&mut block.values) {
@@ -467,7 +472,7 @@ impl OracleMachine {
         let counts = (0..self.counts()).chain(self.luminance());
         for (place, column) in counts.enumerate() {
             let values = &block.values[column][..count];
-            // Without an early end, so that it takes several at a time.
+            // No early exit, so that the compiler can vectorize the loop.
             let outside = |value: i64| value < -slack || value > most + slack;
             if values
                 .iter()
@@ -491,13 +496,13 @@ impl OracleMachine {
     }
 }
 
-/// Paths that a thread runs at a time, and what is read of them.
+/// Paths that a thread runs together, and their outputs.
 struct OracleBlock {
     ids: Vec<u64>,
     runs: Vec<PixelRun>,
-    /// By path: its primary hit, if that is an input.
+    /// Primary hits by path, if they are inputs of the oracle.
     hits: Vec<u64>,
-    /// By run: the queries that these took.
+    /// Queries by run: those that finding its primary hits took.
     queries: Vec<u64>,
     values: Vec<Vec<i64>>,
 }
@@ -516,7 +521,7 @@ impl OracleBlock {
 }
 
 struct PixelRun {
-    /// The pixel's place in the list that was given.
+    /// Position of the pixel in the caller's list.
     pixel: usize,
     paths: PathRun,
 }

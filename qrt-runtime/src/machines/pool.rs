@@ -1,8 +1,8 @@
-//! What threads borrow while they work: registers of lanes, rows of bits.
+//! Objects that threads borrow while they work: registers of lanes, rows of bits.
 
 use std::sync::{Mutex, PoisonError};
 
-/// A pool of objects that were made for work that is over, to be used again by work to come.
+/// A pool of objects. Later work reuses the objects that earlier work created.
 pub(super) struct Pool<T>(Mutex<Vec<T>>);
 
 impl<T> Pool<T> {
@@ -10,8 +10,8 @@ impl<T> Pool<T> {
         Self(Mutex::new(Vec::new()))
     }
 
-    /// Does `work` with something of the pool, or with what `make` makes. After an error it is not
-    /// used again.
+    /// Calls `work` with an object of the pool, or with a new one from `make` if the pool is empty.
+    /// After an error, the object is not reused.
     pub(super) fn lend<E>(
         &self,
         make: impl FnOnce() -> T,

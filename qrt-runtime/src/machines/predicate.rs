@@ -10,19 +10,21 @@ use qrt_core::tracer::Stage;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// What marks the paths of blocks. Behind a trait, so that who traces colours alone does not link it.
+/// Marks the good paths of blocks. It is a trait so that a program that traces only colours does
+/// not link its implementation.
 pub(super) trait Marker: std::fmt::Debug + Send + Sync {
-    /// What the tracer is to note.
+    /// Creates the records that the tracer fills in.
     fn watched(&self) -> RefCell<Vec<Watched>>;
 
-    /// What marks one block after another.
+    /// Returns a function that marks one block after another.
     fn marks(&self) -> Mark<'_>;
 }
 
-/// Puts in place of the colours of the first paths of a block, so many, what is counted.
+/// Replaces the colours of a block's first paths by the values that are counted. The `usize` is the
+/// number of these paths.
 pub(super) type Mark<'a> = Box<dyn FnMut(&Stage<3>, (&Inputs, usize), &mut [[f64; BLOCK]; 3]) + 'a>;
 
-/// What is asked about paths beside their colours.
+/// A predicate on paths: its numbers, its program, and its marks.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
     numbers: PathNumbers,
@@ -30,12 +32,12 @@ pub(super) struct Asked {
     marks: Marks,
 }
 
-/// How numbers of a path are read of what the tracer notes.
+/// Reads the numbers of a path from the tracer's records.
 #[derive(Clone, Debug)]
 pub(super) struct PathNumbers {
     formats: PathFormats,
     numbers: Arc<[PathNumber]>,
-    /// By face: its material, from 1 on.
+    /// Material of each face, from 1 on.
     materials: Arc<[u32]>,
 }
 
@@ -53,12 +55,12 @@ impl PathNumbers {
         }
     }
 
-    /// What the tracer is to note.
+    /// Creates the records that the tracer fills in.
     pub(super) fn watched(&self) -> RefCell<Vec<Watched>> {
         RefCell::new(vec![Watched::NONE; self.formats.rays])
     }
 
-    /// A number of path `lane` of a block, in the scene.
+    /// Returns a number of path `lane` of a block, in scene units.
     fn value(
         &self,
         stage: &Stage<3>,
@@ -108,7 +110,7 @@ impl PathNumbers {
         }
     }
 
-    /// All numbers of path `lane` of a block, in the scene.
+    /// Returns all numbers of path `lane` of a block, in scene units.
     pub(super) fn values(
         &self,
         stage: &Stage<3>,
@@ -131,9 +133,10 @@ impl Asked {
         }
     }
 
-    /// Puts in place of the colours of the first `count` paths of a block what is counted: of
-    /// paths, 1 where the predicate holds and 0 elsewhere; of light, the colour where it holds. It
-    /// is not a number where a number of the path does not fit its register, which is a defect.
+    /// Replaces the colours of the first `count` paths of a block by the values that are counted.
+    /// For [`Marks::Paths`] the value is 1 where the predicate holds and 0 elsewhere; for
+    /// [`Marks::Light`] it is the colour where the predicate holds and 0 elsewhere. It is NaN where
+    /// a number of the path does not fit its register, which is a defect.
     fn mark(
         &self,
         stage: &Stage<3>,

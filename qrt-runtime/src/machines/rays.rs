@@ -1,4 +1,4 @@
-//! Single rays: what a machine's tracer asks of the geometry, by itself.
+//! Nearest hits of single rays, from the same search that a machine's tracer uses.
 
 use super::Real;
 use super::bvh::{Faces, Indexed};
@@ -14,24 +14,24 @@ pub struct SingleRay {
     pub origin: [f64; 3],
     /// The direction in which the ray goes, of any length.
     pub direction: [f64; 3],
-    /// The plane it leaves, which it does not meet; [`qrt_core::tracer::NO_PLANE`] for none.
+    /// The plane that the ray leaves and does not meet; [`qrt_core::tracer::NO_PLANE`] for none.
     pub from: u32,
-    /// The kind of place at which it starts: neighbours from the camera are searched for together. What
-    /// they meet is the same.
+    /// The kind of place at which the ray starts. Neighbouring rays from the camera are searched
+    /// for together; the kind does not change the hit.
     pub start: Start,
 }
 
-/// What a ray meets first.
+/// The nearest hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
     /// The label of the face.
     pub face: u32,
-    /// Its distance, in lengths of the ray's direction.
+    /// Distance of the face, in lengths of the ray's direction.
     pub distance: f64,
 }
 
 impl Real {
-    /// What each of `rays` meets first.
+    /// Finds the nearest hit of each of `rays`.
     pub fn nearest(&self, rays: &[SingleRay]) -> Vec<Option<Met>> {
         let mut met = Vec::with_capacity(rays.len());
         let inputs = Inputs {

@@ -19,24 +19,24 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Which lanes to use. All give the same bits.
+/// The lanes to use. All choices give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Simd {
-    /// Those of [`InstructionSet::widest`].
+    /// The lanes of [`InstructionSet::widest`].
     #[default]
     Widest,
     /// One path at a time.
     Scalar,
 }
 
-/// Where the sample coordinates of a path come from.
+/// Source of a path's sample coordinates.
 #[derive(Clone, Debug)]
 pub enum Points {
     /// The scene's sequence, as the circuit computes it.
     Sequence(PathPoints),
-    /// Independent for every path and coordinate: classical Monte Carlo, to compare with.
+    /// Independent numbers for every path and coordinate: classical Monte Carlo, for comparison.
     Independent {
-        /// The scene's sequence, whose coordinates and bits these have.
+        /// The scene's sequence, which defines the coordinates and their bits.
         like: PathPoints,
         /// The paths of a pixel.
         paths: u64,
@@ -86,12 +86,12 @@ impl Points {
     }
 }
 
-/// Spreads a path index over all 64 bits, so that it can key a hash beside a seed.
+/// Spreads a path index over all 64 bits, so that it can key a hash together with a seed.
 fn mixed(id: u64) -> u64 {
     (id + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
 }
 
-/// What a pixel's paths sum to.
+/// Sums over the paths of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelSum {
     /// Sum of the paths' colours, in radiance: red, green, blue.
@@ -104,7 +104,7 @@ pub struct PixelSum {
 /// A block of finished paths of one pixel: their colours per channel.
 #[derive(Clone, Copy, Debug)]
 pub struct PathBlock<'a> {
-    /// The pixel's place in the list that was asked for.
+    /// Position of the pixel in the caller's list.
     pub pixel: usize,
     /// Red, green, blue of each path, in the order of path indices.
     pub colours: [&'a [f64]; 3],
@@ -118,7 +118,7 @@ pub struct Real {
     points: Points,
     seed: u64,
     simd: Simd,
-    /// Which paths count, if not all do.
+    /// Marks the paths that count; `None` if all paths count.
     asked: Option<Arc<dyn Marker>>,
 }
 
@@ -153,9 +153,9 @@ impl Real {
         })
     }
 
-    /// A machine of a predicate, for the pixels of one class. It hands over, in place of paths'
-    /// colours, 1 for each good path and 0 for others under [`Marks::Paths`], and the colour of
-    /// each good path and black for others under [`Marks::Light`].
+    /// Creates a machine for a predicate, for the pixels of one class. In place of a path's colour
+    /// it returns 1 for a good path and 0 for any other under [`Marks::Paths`], and the colour of a
+    /// good path and black for any other under [`Marks::Light`].
     ///
     /// # Errors
     /// As [`Real::new`].
@@ -172,7 +172,8 @@ impl Real {
         Ok(real)
     }
 
-    /// The numbers of one path, in the scene and in their order: see [`qrt_core::oracle::paths`].
+    /// Returns the values of `numbers` on one path, in scene units and in the order of `numbers`:
+    /// see [`qrt_core::oracle::paths`].
     ///
     /// # Errors
     /// As [`Real::new`].
@@ -195,27 +196,27 @@ impl Real {
         Ok(numbers.values(&real.stage, (&watched.borrow(), &colours), 0))
     }
 
-    /// The same machine with other vector instructions.
+    /// Returns the same machine with other vector instructions.
     pub fn with_simd(mut self, simd: Simd) -> Self {
         self.simd = simd;
         self
     }
 
-    /// With a hierarchy of boxes in front of the faces, or without: by itself a machine has one
-    /// when it pays. The colours are the same.
+    /// Adds the hierarchy of boxes in front of the faces, or removes it. By default, a machine has
+    /// one if it makes the search faster. The colours are the same.
     pub fn with_boxes(mut self, boxes: bool) -> Self {
         self.bvh = boxes.then(|| Bvh::new(self.stage.geometry()));
         self
     }
 
-    /// With independent paths instead of the scene's sequence.
+    /// Replaces the scene's sequence by independent paths, `paths` for each pixel.
     pub fn monte_carlo(mut self, paths: u64) -> Self {
         let like = self.points.sequence().clone();
         self.points = Points::Independent { like, paths };
         self
     }
 
-    /// The scene as it is traced.
+    /// The scene in the form that the tracer reads.
     pub fn stage(&self) -> &Stage<3> {
         &self.stage
     }
@@ -225,13 +226,13 @@ impl Real {
         self.points.paths()
     }
 
-    /// Traces every path of `pixels` (column, row) and hands over their colours, block by block:
-    /// a pixel's blocks come in the order of path indices.
+    /// Traces every path of `pixels` (column, row) and passes the colours to `finished`, block by
+    /// block. The blocks of a pixel come in the order of path indices.
     pub fn trace(&self, pixels: &[[u32; 2]], finished: impl FnMut(PathBlock<'_>)) {
         self.trace_range(pixels, 0..self.points.paths(), finished);
     }
 
-    /// As [`Real::trace`], of each pixel the paths whose indices are in `ids`.
+    /// As [`Real::trace`], but traces only the paths with indices in `ids` of each pixel.
     pub fn trace_range(
         &self,
         pixels: &[[u32; 2]],
@@ -242,7 +243,7 @@ impl Real {
         let mut inputs = self.inputs(asked.map(|asked| asked.watched()));
         let mut mark = asked.map(|asked| asked.marks());
         let mut colours = [[0.0; BLOCK]; 3];
-        // A block holds a run of one pixel's path indices, or all those of several pixels.
+        // A block holds runs of path indices, each of one pixel.
         let mut filled = 0;
         let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
         for (number, &pixel) in pixels.iter().enumerate() {
@@ -269,7 +270,7 @@ impl Real {
         }
     }
 
-    /// What a block of paths reads, of no paths yet.
+    /// Creates the input of a block, without paths yet.
     fn inputs(&self, watched: Option<RefCell<Vec<Watched>>>) -> Inputs {
         Inputs {
             indices: vec![[0; BLOCK]; 4 * self.points.sequence().depths()],
@@ -319,8 +320,9 @@ impl Real {
     /// Runs `work` with this machine's lanes.
     pub(super) fn dispatch<F: WithSimd>(&self, work: F) -> F::Output {
         match self.simd {
-            // This crate's unit tests do without: each instruction set is a tracer to compile. So
-            // do browsers: it would be a tracer to load, and not all of them know the widest.
+            // This crate's unit tests and browsers use scalar lanes. Each instruction set adds
+            // another copy of the tracer, to compile or to load, and not all browsers support the
+            // widest.
             #[cfg(not(any(test, target_arch = "wasm32")))]
             Simd::Widest => InstructionSet::widest().dispatch(work),
             #[cfg(any(test, target_arch = "wasm32"))]

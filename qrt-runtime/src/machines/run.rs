@@ -1,7 +1,7 @@
-//! Routines, run: a program whose inputs are changed in place, on each of the machines.
+//! Runs routines, which are programs that change their inputs in place, on the machines.
 //!
-//! A *state* is what the program's inputs hold, in their order: bits, as unsigned integers. The
-//! same registers are read after the program, and everything else must be zero again.
+//! A *state* is the contents of the program's inputs, in their order: bits, as unsigned integers.
+//! The same registers are read after the program, and everything else must be zero again.
 //!
 //! ```
 //! use qrt_circuit::format::{Reg, UInt};
@@ -21,8 +21,8 @@
 //! # Ok::<(), run::RunError>(())
 //! ```
 //!
-//! A scene's program in a pixel, a [`BoundProgram`], is run by [`paths_on_definition`],
-//! [`paths_on_fixed`] and [`paths_on_gates`].
+//! [`paths_on_definition`], [`paths_on_fixed`] and [`paths_on_gates`] run a scene's program in a
+//! pixel, a [`BoundProgram`].
 
 use super::{Defect, Fixed, Gates, InvalidGate, OracleMachine};
 use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Unclean, Word, lower};
@@ -30,29 +30,29 @@ use qrt_core::oracle::BoundProgram;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Why a program did not run as a routine does.
+/// Reason for which a program did not run as a routine.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RunError {
-    /// A state has another number of contents than the program has inputs.
+    /// The number of a state's contents differs from the number of the program's inputs.
     #[error("state {state} does not hold {expected} contents, one an input")]
     Inputs {
-        /// The state's place in the list that was given, from 0.
+        /// Position of the state in the list `states`, from 0.
         state: usize,
-        /// How many inputs the program has.
+        /// Number of inputs of the program.
         expected: usize,
     },
     /// A state's content has more bits than its register.
     #[error("state {state} holds more than fits into `{register}`")]
     TooWide {
-        /// The state's place in the list that was given, from 0.
+        /// Position of the state in the list `states`, from 0.
         state: usize,
         /// The register's name.
         register: String,
     },
-    /// A program with classical parameters, which only a scene's pixels decide.
+    /// The program has classical parameters, which only a scene's pixels determine.
     #[error("the program has classical parameters")]
     Parameters,
-    /// The lowering made a list of gates that is no circuit: a defect of qrt.
+    /// The lowering made a list of gates that is not a valid circuit: a defect of qrt.
     #[error(transparent)]
     Gate(InvalidGate),
     /// A register is not freed.
@@ -61,18 +61,19 @@ pub enum RunError {
         /// The register's name.
         register: String,
     },
-    /// A register is freed that is not zero, or is undone after its operands have changed.
+    /// The program frees a register that is not zero, or undoes one after its operands have
+    /// changed.
     #[error("`{register}` is freed, and is not zero from state {state}")]
     Dirty {
-        /// The state's place in the list that was given, from 0.
+        /// Position of the state in the list `states`, from 0.
         state: usize,
         /// The register's name, or the qubit.
         register: String,
     },
 }
 
-/// By the definition of its operations, one state at a time. Whatever is undone is compared with
-/// what its operation computes at that moment.
+/// Runs a program by the definition of its operations, one state at a time. At each inverse, the
+/// register is compared with the value that its operation computes at that moment.
 ///
 /// # Errors
 /// If a state does not fit the program, or the program leaves garbage in a register.
@@ -97,8 +98,8 @@ pub fn on_definition(
     states.map(run).collect()
 }
 
-/// A block of states on a machine: columns of contents by input before it and after it, or the
-/// lane and the name of what is not zero.
+/// Result of a block of states on a machine: columns of contents by input, or the lane and the name
+/// of a register or qubit that is not zero.
 type BlockRun = Result<Vec<Vec<u64>>, (usize, String)>;
 
 /// Runs a program on all states, `lanes` of them at a time.
@@ -122,8 +123,8 @@ fn on_blocks(
     Ok(results)
 }
 
-/// On the fixed machine. It undoes nothing; registers of the routine's own are read after it
-/// instead, and must be zero.
+/// Runs a program on the fixed machine. That machine undoes nothing. Instead, the registers that
+/// the routine allocates are read after the program and must be zero.
 ///
 /// # Errors
 /// If a state does not fit the program, or the program leaves garbage in a register.
@@ -153,8 +154,8 @@ pub fn on_fixed(
     })
 }
 
-/// On the gates machine: every gate of its circuit. All qubits but those of the inputs must be
-/// zero after it.
+/// Runs every gate of a program's circuit on the gates machine. All qubits except those of the
+/// inputs must be zero afterwards.
 ///
 /// # Errors
 /// If a state does not fit the program, or the program leaves garbage in a register.
@@ -189,11 +190,11 @@ pub fn on_gates(
     })
 }
 
-/// The paths `ids` of a scene's program in a pixel, by the definition of its operations: by path, how
-/// many of its comparators are good in each channel.
+/// Runs the paths `ids` of a scene's program in a pixel, by the definition of its operations.
+/// Returns, by path, the number of comparators that are good in each channel.
 ///
 /// # Errors
-/// If an inverse does not find what its operation computes.
+/// If an inverse does not find the value that its operation computes.
 pub fn paths_on_definition(
     bound: &BoundProgram,
     ids: Range<u64>,
@@ -208,10 +209,10 @@ pub fn paths_on_definition(
     .collect()
 }
 
-/// As [`paths_on_definition`], on the fixed machine. The program is one of three channels.
+/// As [`paths_on_definition`], on the fixed machine. The program must have three channels.
 ///
 /// # Errors
-/// The first defect that shows.
+/// The first defect found.
 pub fn paths_on_fixed(bound: &BoundProgram, ids: Range<u64>) -> Result<Vec<Vec<u64>>, Defect> {
     let oracle = Arc::new(bound.oracle().clone());
     paths_on(
@@ -221,11 +222,11 @@ pub fn paths_on_fixed(bound: &BoundProgram, ids: Range<u64>) -> Result<Vec<Vec<u
     )
 }
 
-/// As [`paths_on_fixed`], on the gates machine: every gate of compute, flip and uncompute, and all
-/// ancillas looked at between paths.
+/// As [`paths_on_fixed`], on the gates machine: it runs every gate of compute, flip and uncompute,
+/// and checks all ancillas between paths.
 ///
 /// # Errors
-/// The first defect that shows.
+/// The first defect found.
 pub fn paths_on_gates(bound: &BoundProgram, ids: Range<u64>) -> Result<Vec<Vec<u64>>, Defect> {
     let oracle = Arc::new(bound.oracle().clone());
     paths_on(
@@ -255,7 +256,7 @@ fn name(program: &Program, register: RegisterId) -> String {
     program.registers[register.index()].name.clone()
 }
 
-/// Registers that a routine has changed in place and freed: computed by nothing.
+/// Registers that a routine allocates, changes in place and frees. They are recorded as 0 + 0.
 fn own(program: &Program) -> Vec<RegisterId> {
     let zero = |op: &Op| match op {
         Op::Add {
@@ -298,7 +299,7 @@ mod tests {
     use qrt_circuit::format::{Reg, UInt};
     use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, When};
 
-    /// A scratch register that is freed with what a state holds.
+    /// Returns a program that frees a scratch register while it still holds the content of `a`.
     fn leaves() -> Program {
         let mut m = Recorder::new(Style::InPlace);
         let a: Reg<_, UInt<4>> = Reg::input(&mut m, "a");

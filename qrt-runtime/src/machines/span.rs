@@ -1,17 +1,17 @@
-//! Which pixels the lanes of a block belong to.
+//! Assignment of a block's lanes to pixels.
 
 use std::ops::Range;
 
 /// Neighbouring lanes of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span<'a> {
-    /// How many lanes belong to the pixel.
+    /// Number of lanes that belong to the pixel.
     pub lanes: usize,
     /// The pixel's classical parameters: [`qrt_core::compile::PixelWord::value`] of each.
     pub parameters: &'a [u64],
 }
 
-/// The spans of some of the lanes, which lie within them.
+/// Returns the parts of `spans` that lie within `lanes`.
 pub(super) fn part<'a>(spans: &[Span<'a>], lanes: Range<usize>) -> Vec<Span<'a>> {
     let mut first = 0;
     let parts = spans.iter().map(|span| {

@@ -6,10 +6,10 @@ use qrt_circuit::{
 use qrt_core::oracle::compiled::CompiledOracle;
 use qrt_core::sampling::SamplingError;
 
-/// A register that is not left as it must be.
+/// A register that was not left clean.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unclean {
-    /// It was not what it must be when it was undone or freed.
+    /// The register did not hold the expected value when it was undone or freed.
     #[error(
         "`{register}` held {held} when it was undone, and not {expected}: something it was \
          computed from, or itself, was changed"
@@ -19,20 +19,20 @@ pub enum Unclean {
         register: String,
         /// The register's content when it was undone.
         held: u64,
-        /// What it had to hold, so that the inverse leaves 0.
+        /// The content from which the inverse leaves 0.
         expected: u64,
     },
-    /// It was never undone.
+    /// The register was never undone.
     #[error("`{register}` holds {held} and was never uncomputed: undo what was computed into it")]
     Left {
         /// The register's name.
         register: String,
-        /// What it holds.
+        /// The register's content.
         held: u64,
     },
 }
 
-/// A machine of one basis state, which shows what registers hold and checks what is undone.
+/// A machine of one basis state, which shows the contents of registers and checks each inverse.
 ///
 /// ```
 /// use qrt_circuit::{Declaration, Machine, Type, When, Word};
@@ -67,11 +67,11 @@ impl State {
         state
     }
 
-    /// A state for one path of pixel (column, row) of a compiled oracle, and the register of the
-    /// path's index: the lowest bits of `path`.
+    /// Creates a state for one path of `pixel` (column, row) of a compiled oracle. Also returns the
+    /// register of the path's index, which holds the lowest bits of `path`.
     ///
     /// # Errors
-    /// A sequence that cannot be made; a checked scene's can.
+    /// If the sequence cannot be made; that of a checked scene can.
     pub fn path<C: CompiledOracle>(
         seed: u64,
         pixel: [u32; 2],
@@ -89,7 +89,7 @@ impl State {
         Ok((state, id))
     }
 
-    /// A register that holds the lowest of `bits` from the start.
+    /// Creates a register that holds the lowest of `bits` from the start.
     pub fn input(&mut self, t: &Declaration, bits: u64) -> Recorded {
         let register = self.recorder.input(t);
         self.declared();
@@ -97,7 +97,7 @@ impl State {
         register
     }
 
-    /// What a register holds.
+    /// Returns the content of a register.
     ///
     /// # Panics
     /// If another machine made the register.
@@ -105,7 +105,7 @@ impl State {
         self.contents.registers[self.recorder.own(register).index()]
     }
 
-    /// What a word reads.
+    /// Returns the value that a word reads.
     ///
     /// # Panics
     /// If another machine made the register.
@@ -113,7 +113,7 @@ impl State {
         word.read(self.bits(word.register))
     }
 
-    /// What an operand reads.
+    /// Returns the value that an operand reads.
     ///
     /// # Panics
     /// If another machine made the register.
@@ -124,11 +124,11 @@ impl State {
         }
     }
 
-    /// Whether everything has been undone as it must be, and nothing but inputs is left: a result
-    /// is computed into an [`input`](Self::input) of 0.
+    /// Checks that every inverse left 0, and that no register except inputs still holds anything. A
+    /// routine therefore computes a result into an [`input`](Self::input) of 0.
     ///
     /// # Errors
-    /// The first register that was not, or that still holds something.
+    /// The first register that was undone wrongly, or that still holds something.
     pub fn clean(&self) -> Result<(), Unclean> {
         if let Some(unclean) = &self.unclean {
             return Err(unclean.clone());
@@ -155,7 +155,7 @@ impl State {
         self.contents.registers.resize(registers.len(), 0);
     }
 
-    /// Runs the operations that were recorded last.
+    /// Runs the instruction that was recorded last.
     fn run(&mut self) {
         let program = self.recorder.program();
         let Some(instruction) = program.instructions.last() else {
@@ -171,7 +171,7 @@ impl State {
     }
 }
 
-/// The lowest `width` bits.
+/// Returns the lowest `width` bits of `bits`.
 fn lowest(bits: u64, width: u32) -> u64 {
     bits & u64::MAX.checked_shr(64 - width.min(64)).unwrap_or(0)
 }
@@ -257,7 +257,7 @@ mod tests {
             unclean.to_string(),
             "`double` holds 22 and was never uncomputed: undo what was computed into it"
         );
-        // Nor is a scratch register that is forgotten, be it within a part that is undone.
+        // A scratch register that is never freed is found too, even within a part that is undone.
         let mut state = State::new();
         let a = state.input(&A, 11);
         qrt_circuit::unconditional(&mut state, |state| {

@@ -1,4 +1,4 @@
-//! Squares of bits, turned about their diagonal: from a word a state to a word a qubit, and back.
+//! Transposition of squares of bits: from one word per state to one word per qubit, and back.
 
 /// Swaps bit i of word j with bit j of word i (Warren, Hacker's Delight, 7-3).
 pub(crate) fn transpose(square: &mut [u64; 64]) {

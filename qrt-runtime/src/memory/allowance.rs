@@ -1,5 +1,5 @@
-//! What work takes is estimated before it begins: what would take more memory than may be had is refused,
-//! with the number, and with what to lower.
+//! Estimates of the memory that work takes. Work that would exceed the memory budget is refused
+//! before it begins, with an error that says how much it would take and what to lower.
 
 use super::allowed_bytes;
 use qrt_circuit::lower;
@@ -7,18 +7,19 @@ use qrt_core::oracle::{MOST_BITS, Options, Oracle};
 use qrt_core::valid::{Scatter, ValidScene};
 use std::time::Instant;
 
-/// Bytes of the rows that the same gates run on, one after another, where these are made anew each time: of a thread,
-/// and of all.
+/// Bytes of the rows that the same gates run on, one row after another, if gates are generated for
+/// each run instead of held: for one thread, and for all threads together.
 ///
-/// Making a gate takes as long as running it on some 20,000 states.
+/// Generating a gate takes as long as running it on about 20,000 states.
 const MOST_BYTES_OF_ROWS: [usize; 2] = [128 << 20, 512 << 20];
-/// With more qubits than these, gates that are not held run on one thread at a time, which has all the rows.
+/// With more qubits than this, gates that are not held run on one thread at a time. That thread may
+/// use the bytes of all rows.
 pub(crate) const QUBITS_OF_ONE_TURN: u32 = 1 << 20;
-/// Bytes of a qubit in the shortest rows, of 256 states.
+/// Bytes of one qubit in the shortest rows, those of 256 states.
 const OF_QUBIT: usize = 32;
 
-/// Bytes that one of so many threads has for rows of so many qubits that the same gates run on, where these are made
-/// anew; the shortest rows may need more.
+/// Bytes that each of `threads` threads has for rows of `qubits` qubits, if gates are generated for
+/// each run. The shortest rows may need more.
 pub(crate) fn bytes_of_rows(threads: usize, qubits: u32) -> usize {
     let [of_thread, of_all] = MOST_BYTES_OF_ROWS;
     if qubits > QUBITS_OF_ONE_TURN {
@@ -28,10 +29,12 @@ pub(crate) fn bytes_of_rows(threads: usize, qubits: u32) -> usize {
     }
 }
 
-/// Bytes of what one of so many threads keeps of operations on so many qubits, where gates are made anew.
+/// Bytes of templates of operations that each of `threads` threads keeps for a circuit of `qubits`
+/// qubits, if gates are generated for each run.
 ///
-/// On the scoped knot, of 596 million gates, 32 MB of a thread save a third of the time, 128 MB nearly half of it; on
-/// the same under `keep`, where operations that are alike lie far apart, the former a fourth and more no more.
+/// On the scoped knot, of 596 million gates, 32 MB for each thread save a third of the time, and
+/// 128 MB nearly half of it. On the knot under `keep`, where like operations are far apart, 32 MB
+/// save a fourth, and more memory saves no more.
 pub(crate) fn bytes_of_templates(threads: usize, qubits: u32) -> usize {
     if qubits > QUBITS_OF_ONE_TURN {
         32 << 20
@@ -40,26 +43,30 @@ pub(crate) fn bytes_of_templates(threads: usize, qubits: u32) -> usize {
     }
 }
 
-/// Bytes of a face as it is read and traced: 730 were measured, of a flat grid of 720,000 triangles.
+/// Bytes of a face while it is read and traced. Measured: 730, with a flat grid of 720,000
+/// triangles.
 const OF_FACE: u64 = 1000;
-/// Bytes of a pixel in tiles, picture and files: 83 of a tile.
+/// Bytes of a pixel in tiles, picture and files; 83 of them are in a tile.
 const OF_PIXEL: u64 = 104;
-/// Bytes of a pixel while two pictures are compared: both, their difference, and what FLIP filters.
+/// Bytes of a pixel in a comparison of two pictures: both pictures, their difference, and FLIP's
+/// filtered planes.
 const OF_COMPARED_PIXEL: u64 = 120;
-/// Up to so many operations, as [`expected_operations`] has them, a circuit is compiled without an estimate before it,
-/// which takes as long.
+/// The largest number of operations, by [`expected_operations`], of a circuit that is compiled
+/// without an estimate before it. For such a circuit the estimate takes as long.
 const FEW_OPERATIONS: f64 = 40_000.0;
-/// Operations of a face for a ray, as of the knot, and of a node of an author's own BSDF, which takes one or two.
+/// Operations of a face for each ray, as in the knot; and operations of a node of a user-defined
+/// BSDF, which takes one or two.
 const OF_RAY_AND_FACE: f64 = 31.0;
 const OF_NODE: f64 = 2.0;
-/// Faces of the two parts of a scene from which the whole is estimated; fewer where rays are many.
+/// Faces of the two reduced scenes from which the size of the whole is extrapolated; fewer if there
+/// are many rays.
 const PARTS: [usize; 2] = [64, 128];
-/// Of so few faces no part is taken.
+/// The smallest number of faces of a reduced scene; scenes with no more faces are not reduced.
 const FEW_FACES: usize = 4;
-/// Rays of the paths of these parts, where fewer faces are not enough.
+/// Rays of a path in the two reduced scenes, if reducing the number of faces is not enough.
 const RAYS: [usize; 2] = [4, 8];
 
-/// The memory that work may take; three quarters of what there is, unless set.
+/// The memory budget of work; unless set, three quarters of the memory that the process may use.
 ///
 /// ```
 /// use qrt_runtime::memory::Memory;
@@ -73,32 +80,32 @@ pub struct Memory {
     bytes: u64,
 }
 
-/// Work that would take more memory than it may.
+/// An error that work would exceed the memory budget.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what} would take about {} of memory, and {} are allowed: {lower}", words(*.bytes), words(*.allowed as f64))]
 pub struct MemoryError {
-    /// What would take it.
+    /// The work that would exceed the budget.
     pub what: String,
-    /// An estimate of how many bytes.
+    /// The estimated memory of the work, in bytes.
     pub bytes: f64,
-    /// Bytes that it may take.
+    /// The memory budget, in bytes.
     pub allowed: u64,
-    /// What would take less.
+    /// A change that would lower the memory.
     pub lower: &'static str,
 }
 
-/// What is done with a circuit.
+/// The use that is made of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CircuitWork {
-    /// It is compiled and its operations counted or run.
+    /// The circuit is compiled, and its operations are counted or run.
     Program,
-    /// Its gates run on so many threads.
+    /// The circuit's gates run on this number of threads.
     Gates(usize),
-    /// Its gates are written.
+    /// The circuit's gates are exported.
     Export,
 }
 
-/// Bytes in words, in the largest unit that they fill.
+/// Formats bytes, in the largest unit of which there is at least one.
 fn words(bytes: f64) -> String {
     let (value, unit) = match bytes {
         bytes if bytes < 1e3 => return format!("{bytes:.0} bytes"),
@@ -118,7 +125,8 @@ impl Default for Memory {
 }
 
 impl Memory {
-    /// So many bytes, or three quarters of what there is; where the system does not tell that, any.
+    /// A budget of `bytes`; if `None`, three quarters of the memory that the process may use, or no
+    /// limit if the system does not report that.
     pub fn of(bytes: Option<u64>) -> Self {
         let usual = || allowed_bytes().map_or(u64::MAX, |bytes| bytes / 4 * 3);
         Self {
@@ -126,7 +134,7 @@ impl Memory {
         }
     }
 
-    /// As many faces a scene may have.
+    /// The largest number of faces that a scene may have.
     pub fn faces(self) -> usize {
         usize::try_from(self.bytes / OF_FACE).unwrap_or(usize::MAX)
     }
@@ -143,10 +151,11 @@ impl Memory {
         })
     }
 
-    /// That the comparison of two pictures of this width and height in pixels fits.
+    /// Checks that the comparison of two pictures of this width and height in pixels fits into the
+    /// budget.
     ///
     /// # Errors
-    /// It does not.
+    /// If it does not fit.
     pub fn keep_compared(self, [width, height]: [u64; 2]) -> Result<(), MemoryError> {
         let pixels = width as f64 * height as f64;
         let what = format!("comparing pictures of {width} x {height} pixels");
@@ -157,10 +166,10 @@ impl Memory {
         )
     }
 
-    /// That a picture of this width and height in pixels fits.
+    /// Checks that a picture of this width and height in pixels fits into the budget.
     ///
     /// # Errors
-    /// It does not.
+    /// If it does not fit.
     pub fn keep_picture(self, [width, height]: [u32; 2]) -> Result<(), MemoryError> {
         let pixels = f64::from(width) * f64::from(height);
         let what = format!("a picture of {width} x {height} pixels");
@@ -168,19 +177,20 @@ impl Memory {
         self.keep(&what, pixels * OF_PIXEL as f64, lower)
     }
 
-    /// That parts of so many bytes fit, and the picture that they make: it has about as many.
+    /// Checks that parts of `bytes` bytes fit into the budget, together with the picture that is
+    /// merged from them, which has about the same size.
     ///
     /// # Errors
-    /// They do not.
+    /// If they do not fit.
     pub fn keep_parts(self, bytes: u64) -> Result<(), MemoryError> {
         let lower = "merge on another machine";
         self.keep("merging these parts", 2.0 * bytes as f64, lower)
     }
 
-    /// That the circuits fit that are compiled to plan for an accuracy, if the scene asks for one.
+    /// Checks that the circuits of a plan fit into the budget, if the scene asks for an accuracy.
     ///
     /// # Errors
-    /// They do not.
+    /// If they do not fit.
     pub fn keep_plan(self, scene: &ValidScene) -> Result<Option<CircuitSize>, MemoryError> {
         match scene.scene().accuracy {
             Some(_) => self.keep_circuit(scene, CircuitWork::Program),
@@ -188,11 +198,12 @@ impl Memory {
         }
     }
 
-    /// That the oracle's circuit fits, which grows with the scene's faces. Gives its estimated size, if it
-    /// has so many faces that an estimate takes less time than the circuit, and a circuit.
+    /// Checks that the oracle's circuit, which grows with the number of the scene's faces, fits
+    /// into the budget. Returns its estimated size if the scene has a circuit, and if an estimate
+    /// takes less time than compiling the circuit.
     ///
     /// # Errors
-    /// It does not.
+    /// If it does not fit.
     pub fn keep_circuit(
         self,
         scene: &ValidScene,
@@ -201,7 +212,7 @@ impl Memory {
         if expected_operations(scene) <= FEW_OPERATIONS {
             return Ok(None);
         }
-        // What is wrong is told, with its place, where the whole is compiled.
+        // If the scene has no circuit, compiling the whole scene reports why, with the place.
         let Some(whole) = CircuitSize::estimated(scene) else {
             return Ok(None);
         };
@@ -213,7 +224,7 @@ impl Memory {
     }
 }
 
-/// About how many operations a scene's program has: enough to tell what is small.
+/// A rough number of operations of a scene's program, accurate enough to recognize small programs.
 fn expected_operations(scene: &ValidScene) -> f64 {
     let nodes = |scatter: &Scatter| match scatter {
         Scatter::Custom(bsdf) => {
@@ -233,23 +244,24 @@ fn expected_operations(scene: &ValidScene) -> f64 {
     rays * (OF_RAY_AND_FACE * scene.polygons().len() as f64 + OF_NODE * nodes)
 }
 
-/// What a circuit consists of.
+/// The size of a circuit, and the time to compile it.
 #[derive(Clone, Copy, Debug)]
 pub struct CircuitSize {
     /// Operations of the program.
     pub operations: f64,
-    /// Qubits, at the peak.
+    /// The largest number of qubits in use at a time.
     pub qubits: f64,
     /// Bits of all registers.
     pub bits: f64,
     /// Gates of compute and uncompute.
     pub gates: f64,
-    /// Wall time to compile it and make its gates, in seconds.
+    /// Wall time to compile the circuit and generate its gates, in seconds.
     pub seconds: f64,
 }
 
 impl CircuitSize {
-    /// Of a scene's oracle, if it has one; of a large one, estimated from two parts of the scene's faces.
+    /// The size of a scene's oracle, if it has one. For a large oracle, it is extrapolated from two
+    /// scenes with fewer faces.
     pub fn estimated(scene: &ValidScene) -> Option<Self> {
         let (faces, operations) = (scene.polygons().len(), expected_operations(scene));
         if operations <= FEW_OPERATIONS || faces <= FEW_FACES {
@@ -263,7 +275,8 @@ impl CircuitSize {
         Some(few?.towards(&more?, share))
     }
 
-    /// Of a scene's oracle, if it has one; of a large one of few faces, estimated from paths of fewer rays.
+    /// The size of a scene's oracle, if it has one. For a large oracle of few faces, it is
+    /// extrapolated from two scenes with fewer rays.
     fn of_rays(scene: &ValidScene) -> Option<Self> {
         let rays = scene.scene().sampling.depths.len();
         if expected_operations(scene) <= FEW_OPERATIONS || rays <= RAYS[1] {
@@ -274,7 +287,7 @@ impl CircuitSize {
         Some(few?.towards(&more?, share))
     }
 
-    /// Of a scene's oracle, if it has one.
+    /// The size of a scene's oracle, if it has one, by compiling the oracle.
     fn of(scene: &ValidScene) -> Option<Self> {
         let start = Instant::now();
         let program = Oracle::rgb(scene, Options::default()).ok()?.program;
@@ -293,7 +306,8 @@ impl CircuitSize {
         })
     }
 
-    /// On the line from here to `other`, which is larger, at `share` of the way; that is beyond.
+    /// Extrapolates along the line from `self` (`share` 0) through the larger `other` (`share` 1).
+    /// `share` is 1 or more.
     fn towards(&self, other: &Self, share: f64) -> Self {
         let line = |from: f64, to: f64| (from + (to - from) * share).max(to);
         Self {
@@ -305,8 +319,8 @@ impl CircuitSize {
         }
     }
 
-    /// Bytes that work with it takes: of the knot, whose 142,875 operations need 12.7 million qubits, 0.62 GB
-    /// were measured of compiling and 0.80 GB of running gates.
+    /// Bytes that the work takes. Measured for the knot, whose 142,875 operations need 12.7 million
+    /// qubits: 0.62 GB for compiling and 0.80 GB for running gates.
     fn bytes(&self, work: CircuitWork) -> f64 {
         let (qubits, operations) = (self.qubits, self.operations);
         let compiled = 40.0 * qubits + 700.0 * operations;
@@ -314,7 +328,7 @@ impl CircuitSize {
             CircuitWork::Gates(threads) if self.bits <= MOST_BITS as f64 => {
                 compiled + 40.0 * self.gates + 256.0 * qubits * threads as f64
             }
-            // Rows; what is kept of operations; where registers are; the program with its inverse.
+            // Rows, templates of operations, places of registers, and the program with its inverse.
             CircuitWork::Gates(threads) => {
                 let shortest = OF_QUBIT as f64 * qubits;
                 let all = MOST_BYTES_OF_ROWS[1] as f64;
@@ -341,7 +355,8 @@ impl CircuitSize {
 mod tests {
     use super::*;
 
-    /// A tunnel of so many quads in each of two materials, which face each other, and paths of so many rays.
+    /// A tunnel of `quads` quads and `quads` triangles of one material and a lamp, with paths of
+    /// `rays` rays.
     fn tunnel(material: &str, quads: usize, rays: usize) -> ValidScene {
         use std::fmt::Write;
         let mut text = format!(
@@ -393,7 +408,7 @@ geometry:
         }
     }
 
-    /// What is compiled without an estimate is small.
+    /// Circuits that are compiled without an estimate are small.
     #[test]
     fn the_largest_circuit_that_is_not_estimated_is_small() {
         for (quads, rays) in [(200, 3), (60, 10), (10, 60)] {

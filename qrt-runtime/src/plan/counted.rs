@@ -1,4 +1,4 @@
-//! The error of estimating.
+//! The error of estimating amplitudes.
 
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
@@ -8,8 +8,8 @@ use qrt_core::scene::{Counting, Estimator};
 use std::sync::PoisonError;
 
 impl Pilot<'_> {
-    /// What the estimator is off by, run by run and channel by channel, and its queries of a pixel
-    /// by channel.
+    /// The errors of the estimator, by run, pixel and channel, and its mean queries of a pixel, by
+    /// channel.
     pub(super) fn counted(&self, counting: &Counting) -> Result<Runs, PlanError> {
         let error = counting.error.map(f64::to_bits);
         let key = (counting.phase_bits, counting.repetitions, error);
@@ -27,7 +27,7 @@ impl Pilot<'_> {
             let none = vec![vec![[0.0; 3]; self.pixels.len()]; self.draws as usize];
             return Ok((none, [0.0; 3]));
         }
-        // As many indices as the scene will have, or almost: more make no difference.
+        // About the number of indices that the scene will have; more would not change the errors.
         let total = 1_u64 << (COMPARED + self.comparator_bits);
         let good_of = |(value, bounds): (&[f64; 3], &[f64; 3])| -> [u64; 3] {
             std::array::from_fn(|c| match bounds[c] {
@@ -35,8 +35,8 @@ impl Pilot<'_> {
                 bound => ((value[c] / bound * total as f64).round() as u64).min(total),
             })
         };
-        // How colours are spread is known of those many paths alone; their mean is not quite the best
-        // known, and estimates of it are off by as much.
+        // The octaves are known only for these 2^COMPARED paths. Their mean differs a little from
+        // the best known value, but the errors of estimating the two are alike.
         let good: Vec<[u64; 3]> = if self.octaves.is_empty() {
             self.values.iter().zip(&self.bounds).map(good_of).collect()
         } else {

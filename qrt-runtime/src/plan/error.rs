@@ -1,4 +1,4 @@
-//! Why no parameters are chosen.
+//! The errors of choosing parameters.
 
 use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
@@ -6,33 +6,34 @@ use crate::sample::SampleError;
 use crate::workers::ThreadsError;
 use qrt_core::sampling::SamplingError;
 
-/// Why no parameters are chosen for an asked accuracy.
+/// An error of choosing parameters for an accuracy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The scene asks for an accuracy that no parameters keep, or that cannot be shown: why.
+    /// No parameters keep the scene's accuracy, or the sample cannot show that they do; the text
+    /// says why.
     #[error("the scene's `accuracy` cannot be kept: {0}")]
     Unreachable(String),
-    /// The sequence of paths can't be made.
+    /// The sequence of paths cannot be created.
     #[error(transparent)]
     Sampling(#[from] SamplingError),
-    /// The pixels can't be counted as asked.
+    /// The pixels cannot be counted with these parameters.
     #[error(transparent)]
     Counting(#[from] CountingError),
-    /// The estimator can't do what it is asked.
+    /// The estimator does not support the request.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
-    /// The sample of pixels is not summed, or was interrupted.
+    /// Summing the sample of pixels failed, or was interrupted.
     #[error(transparent)]
     Sample(#[from] SampleError),
-    /// The threads can't be started.
+    /// The threads cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
 }
 
 impl PlanError {
-    /// Whether it is the request that can't be met, rather than the job that failed: another
-    /// attempt will fail alike.
+    /// Returns true if the request can't be met, so that another attempt will fail alike; false if
+    /// the job failed.
     pub fn is_refusal(&self) -> bool {
         !matches!(self, Self::Sample(_) | Self::Threads(_))
     }

@@ -1,11 +1,11 @@
-//! What a plan chose, and what it expects.
+//! The parameters that a plan chose, and the errors and costs that it expects.
 
 use qrt_core::inspect::grouped;
 use qrt_core::oracle::CallCost;
 use qrt_core::scene::{Accuracy, Estimator, Sequence};
 use std::fmt;
 
-/// Errors at the asked confidence, in units of the mean radiance.
+/// Errors at the requested confidence, in units of the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ErrorParts {
     /// The error of a finite number of paths.
@@ -16,48 +16,48 @@ pub struct ErrorParts {
     pub width: f64,
     /// The error of estimating amplitudes from measurements.
     pub counting: f64,
-    /// The error of all of them together, which is not their sum.
+    /// The error of all parts combined, which is not their sum.
     pub total: f64,
 }
 
-/// What a plan chose, and what it expects.
+/// The parameters that a plan chose, and the errors and costs that it expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// The error and the confidence that were asked.
+    /// The error and the confidence that the scene asks for.
     pub accuracy: Accuracy,
-    /// The mean radiance over pixels and channels of the picture, as far as it was tried.
+    /// The mean radiance over channels and the sampled pixels of the picture.
     pub mean: f64,
-    /// Pixels that were tried, and those of the film.
+    /// Number of pixels in the sample, and number of pixels of the film.
     pub pixels: [u64; 2],
-    /// How path indices become points; as the scene says.
+    /// The map from path indices to points, as in the scene.
     pub sequence: Sequence,
     /// Chosen: R = 2^path_bits.
     pub path_bits: u32,
-    /// Whether that many were not tried, but follow from how the error falls.
+    /// True if the error of that number of paths was extrapolated instead of measured.
     pub extrapolated: bool,
-    /// Chosen: fraction bits; none where the scene has no circuit.
+    /// Chosen: fraction bits; `None` if the scene has no circuit.
     pub fraction: Option<u32>,
     /// Chosen: C = 2^comparator_bits.
     pub comparator_bits: u32,
-    /// The estimator that will count.
+    /// The estimator that the plan is for.
     pub estimator: Estimator,
     /// Chosen: T = 2^phase_bits.
     pub phase_bits: u32,
     /// Chosen: B, the runs of the counting circuit.
     pub repetitions: u32,
-    /// Chosen: half the width of the interval, in radiance, at which a channel is done; none where
-    /// all queries are used.
+    /// Chosen: half the width of the interval, in radiance, at which a channel stops; `None` if all
+    /// queries are used.
     pub error: Option<f64>,
-    /// The fraction of channels that is expected to be within the asked error.
+    /// The expected fraction of channels within the requested error.
     pub within: f64,
-    /// The errors behind it, in units of the mean radiance.
+    /// The parts of the error, in units of the mean radiance.
     pub parts: ErrorParts,
-    /// Queries of a pixel, all channels together, on average.
+    /// Mean queries of a pixel, for all channels together.
     pub queries: f64,
-    /// The same by channel: red, green and blue.
+    /// Mean queries of a pixel for red, green and blue.
     pub channel_queries: [f64; 3],
-    /// The cost of one call of the most expensive of the scene's oracles; none where the scene has no
-    /// circuit.
+    /// The cost of one call of the most expensive of the scene's oracles; `None` if the scene has
+    /// no circuit.
     pub cost: Option<CallCost>,
 }
 

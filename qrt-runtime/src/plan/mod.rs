@@ -1,30 +1,31 @@
-//! From an asked accuracy to the cheapest parameters.
+//! Chooses the cheapest parameters for a requested accuracy.
 //!
-//! `accuracy: { error, confidence }` asks that a channel of a pixel be within `error` times the
-//! picture's mean radiance of its limit (infinitely many paths of the scene's length, real numbers,
-//! nothing counted) with probability `confidence`: that fraction of a picture's channels is.
+//! `accuracy: { error, confidence }` requests that the fraction `confidence` of a picture's
+//! channels be within `error` times the picture's mean radiance of their limit. The limit has
+//! infinitely many paths of the scene's length, real numbers, and no error of counting.
 //!
-//! # How parameters are chosen
+//! # Choice of parameters
 //!
-//! By trying them on a sample of pixels, each part of the error apart:
+//! Parameters are tried on a sample of pixels, and each part of the error is measured separately:
 //!
 //! * *paths*: the difference between two independently shifted nets of `2^k` paths, over the square
-//!   root of 2, for growing k; beyond [`MOST_TRIED`] bits by the power law that they show;
-//! * *comparators*: counted thresholds against the mean of the same paths;
+//!   root of 2, for growing k; beyond [`MOST_TRIED`] bits, a power law fitted to these differences;
+//! * *comparators*: the count of thresholds against the mean of the same paths;
 //! * *width*: the circuit's counts against those of real numbers on the same paths;
 //! * *counting*: runs of the estimator on each channel's own S/N.
 //!
-//! They are added up channel by channel, run by run, so that what counts is how they really
-//! combine. Parameters will do if the fraction of channels that are off by more, and 1.64 times its
-//! standard error over pixels (what another sample, or one picture's luck, may add), stay below
-//! 1 - confidence.
+//! The parts are added channel by channel and run by run, so that the sum has the distribution of
+//! the combined error. Parameters are accepted if the fraction of channels beyond the requested
+//! error, plus 1.645 times its standard error, is at most 1 - confidence. The standard error covers
+//! the choice of the sample and the randomness of one picture.
 //!
-//! Among parameters that will do, the product of queries and Toffolis is made least: queries
-//! against the width of numbers. A path bit costs a qubit and no Toffoli, but twice the time of a
-//! simulation; path bits are added as long as each, or each of up to three together, saves an
-//! sixteenth of the queries. Comparators are so many that they take a twentieth of the error.
+//! Among accepted parameters, the plan minimizes the product of queries and Toffolis: it balances
+//! queries against the width of numbers. A path bit costs a qubit and no Toffoli, but twice the
+//! time of a simulation. Path bits are added as long as each one, or each of up to three together,
+//! saves a sixteenth of the queries. The number of comparators is chosen so that they take at most
+//! a twentieth of the error.
 //!
-//! The seed of a picture plays no part: a scene always gets the same parameters.
+//! The seed of a picture has no influence: a scene always gets the same parameters.
 
 mod counted;
 mod error;
@@ -43,14 +44,14 @@ use pilot::Pilot;
 use qrt_core::scene::{Counting, Estimator};
 use qrt_core::valid::ValidScene;
 
-/// How to plan. What isn't set follows from the scene.
+/// Options of a plan. Options that are not set follow from the scene.
 #[derive(Clone, Copy, Default)]
 pub struct Options<'a> {
     /// The estimator; the default one unless set.
     pub estimator: Option<Estimator>,
-    /// Noise of the device that will count.
+    /// Noise of the device that the plan is for.
     pub noise: Noise,
-    /// Who does the work.
+    /// The threads that do the work.
     pub workers: Workers<'a>,
 }
 
@@ -59,7 +60,7 @@ pub struct Options<'a> {
 pub struct Plan {
     /// The scene with the chosen parameters in place of its accuracy.
     pub scene: ValidScene,
-    /// The parameters that were chosen, and the errors and costs that are expected of them.
+    /// The chosen parameters, and the errors and costs that are expected of them.
     pub figures: Figures,
 }
 

@@ -1,4 +1,4 @@
-//! The errors of a sample of pixels, part by part.
+//! Measures the errors on a sample of pixels, part by part.
 
 use super::{Options, PlanError};
 use crate::counting::{Comparators, CountingError, Octaves};
@@ -22,25 +22,26 @@ pub const MOST_TRIED: u32 = 18;
 pub(super) const FEWEST: u32 = 4;
 /// Path bits on which comparators and widths are tried.
 pub(super) const COMPARED: u32 = 11;
-/// The mean is that of at most so many pixels, and so many path bits.
+/// The mean radiance is taken over at most this number of pixels, and with this number of path
+/// bits.
 const MEAN: (u64, u32) = (1 << 12, 8);
-/// Keys the shifts of the two nets, and of a third to compare a lattice with.
+/// Keys of the shifts of the two nets, and of a third net as the reference for a lattice.
 pub(super) const SHIFTS: [u64; 3] = [0x706c_616e_2041, 0x706c_616e_2042, 0x706c_616e_2043];
 /// Comparator bits that are tried.
 const COMPARATORS: std::ops::RangeInclusive<u32> = 2..=26;
-/// What comparators may take of the error.
+/// The largest fraction of the error that comparators may take.
 const COMPARATORS_SHARE: f64 = 0.05;
 
-/// An error of every channel that is tried, in units of the mean radiance.
+/// An error of every sampled channel, in units of the mean radiance.
 pub(super) type Errors = Vec<[f64; 3]>;
 
-/// Run by run, the errors of an estimator; and its queries of a pixel, by channel.
+/// The errors of an estimator, by run, and its queries of a pixel, by channel.
 pub(super) type Runs = (Vec<Errors>, [f64; 3]);
 
-/// By phase bits, repetitions and the bits of the error to stop at.
+/// Runs by phase bits, repetitions, and the bits of the error at which the estimator stops.
 type Known = BTreeMap<(u32, u32, Option<u64>), Runs>;
 
-/// A sample of pixels, and what was found on it.
+/// A sample of pixels, and the errors measured on it.
 pub(super) struct Pilot<'a> {
     pub(super) scene: &'a ValidScene,
     pub(super) accuracy: Accuracy,
@@ -49,26 +50,27 @@ pub(super) struct Pilot<'a> {
     /// The picture's mean radiance.
     pub(super) mean: f64,
     pub(super) pixels: Vec<[u32; 2]>,
-    /// Runs of an estimator for every channel and sign of the paths' error.
+    /// Number of runs of an estimator, for every channel and each sign of the paths' error.
     pub(super) draws: u64,
     classes: PixelClasses,
-    /// The bound of a path's colour, by class of pixels and channel.
+    /// The upper bound of a path's colour, by class of pixels and channel.
     bound_of: [[f64; 3]; 2],
-    /// The same, by pixel.
+    /// The upper bound of a path's colour, by pixel and channel.
     pub(super) bounds: Vec<[f64; 3]>,
     pub(super) comparator_bits: u32,
-    /// The errors of the comparators that were chosen.
+    /// The errors of the chosen number of comparators.
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
     pub(super) values: Means,
-    /// How the paths of a smaller net exceed the thresholds; of estimators that count no strata,
-    /// nothing.
+    /// The counts of exceeded thresholds of the paths of a smaller net, by octave; empty if the
+    /// estimator counts no strata.
     pub(super) octaves: Vec<[Octaves; 3]>,
-    /// By path bits, from [`FEWEST`] on; of a lattice the only one.
+    /// The errors of paths by path bits, from [`FEWEST`] on; for a lattice, the only entry is its
+    /// own.
     nets: Vec<Errors>,
-    /// What estimators were off by. Counting is tried only where
-    /// paths alone keep the asked error, and so [`Self::values`] do: what more paths change of them
-    /// hardly changes this.
+    /// The errors of estimators tried so far. Counting is tried only if the error of paths alone is
+    /// small enough, and then more paths hardly change [`Self::values`], and with them these
+    /// errors.
     pub(super) counted: Mutex<Known>,
     workers: Workers<'a>,
 }
@@ -141,7 +143,7 @@ impl<'a> Pilot<'a> {
         Ok(pilot)
     }
 
-    /// Whether the scene's path bits follow from those of its coordinates.
+    /// Returns whether the scene's path bits follow from those of its coordinates.
     pub(super) fn is_lattice(&self) -> bool {
         self.scene.scene().sampling.sequence == Sequence::ProductLattice
     }
@@ -153,13 +155,13 @@ impl<'a> Pilot<'a> {
         a.iter().zip(b).map(differences).collect()
     }
 
-    /// The means of the tried pixels over the first `2^k` paths, for each k of `bits`.
+    /// The means of the sampled pixels over the first `2^k` paths, for each k of `bits`.
     fn means(&self, scene: &ValidScene, seed: u64, bits: &[u32]) -> Result<Vec<Means>, PlanError> {
         let real = Real::new(scene, seed)?;
         Ok(prefix_means(&real, &self.pixels, bits, &self.workers)?)
     }
 
-    /// The error of `2^bits` paths, and whether it is an extrapolation.
+    /// The error of `2^bits` paths, and true if it is an extrapolation.
     pub(super) fn paths(&mut self, bits: u32) -> Result<(Errors, bool), PlanError> {
         if self.is_lattice() {
             return Ok((self.nets[0].clone(), false));
@@ -190,7 +192,8 @@ impl<'a> Pilot<'a> {
         Ok((scaled, true))
     }
 
-    /// Of log2 error over path bits, over the last six nets; no steeper than is certain.
+    /// The slope of log2 of the error over path bits, fitted to the last six nets. The upper end of
+    /// the fit's band is taken, so that the error is not extrapolated to fall too fast.
     fn slope(&self) -> f64 {
         let root = |errors: &Errors| {
             let sum: f64 = errors.iter().flatten().map(|e| e * e).sum();
@@ -251,7 +254,8 @@ impl<'a> Pilot<'a> {
         Ok(())
     }
 
-    /// The paths of the net that comparators are chosen with, counted against so many bits of them.
+    /// Counts the paths of the net with which comparators are chosen, for each number of comparator
+    /// bits in `bits`.
     fn tallied(&self, bits: RangeInclusive<u32>) -> Result<Vec<Tally>, PlanError> {
         let net = net(self.scene, COMPARED)?;
         self.classes.apart(&self.pixels, |class, pixels| {
@@ -271,8 +275,8 @@ impl<'a> Pilot<'a> {
         Comparators::rgb(self.bound_of[class as usize], comparator)
     }
 
-    /// The error of numbers with so many fraction bits, and what a call costs with so many paths;
-    /// none where there is no circuit.
+    /// The error of numbers with `fraction` fraction bits, and the cost of a call with
+    /// `2^path_bits` paths; `None` if there is no circuit.
     pub(super) fn width(
         &self,
         path_bits: u32,
@@ -311,7 +315,7 @@ impl<'a> Pilot<'a> {
     }
 }
 
-/// The `level` quantile of the sizes of errors.
+/// The `level` quantile of the absolute errors.
 pub(super) fn quantile(errors: &[[f64; 3]], level: f64) -> f64 {
     let mut sizes: Vec<f64> = errors.iter().flatten().map(|e| e.abs()).collect();
     sizes.sort_by(f64::total_cmp);
@@ -326,7 +330,7 @@ pub(super) fn unreachable(why: String) -> PlanError {
     PlanError::Unreachable(why)
 }
 
-/// The scene's parameters under a net of `2^bits` paths.
+/// The scene's parameters with a digital net of `2^bits` paths.
 fn net_parameters(scene: &ValidScene, bits: u32) -> Parameters {
     let mut parameters = scene.parameters();
     if parameters.sampling.sequence == Sequence::ProductLattice {
@@ -343,7 +347,7 @@ fn net(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
     valid(scene, net_parameters(scene, bits))
 }
 
-/// The scene's own sequence: of `2^bits` paths if it is a net.
+/// The scene with its own sequence; a net gets `2^bits` paths.
 fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
     let mut parameters = scene.parameters();
     if parameters.sampling.sequence == Sequence::DigitalNet {

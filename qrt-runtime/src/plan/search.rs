@@ -1,4 +1,4 @@
-//! The cheapest parameters that will do.
+//! Searches for the cheapest parameters that keep the accuracy.
 
 use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::together::{each_total, failing, will_do};
@@ -6,31 +6,33 @@ use super::{ErrorParts, Figures, Plan, PlanError};
 use qrt_core::oracle::{CallCost, DEFAULT_FRACTION};
 use qrt_core::scene::{Counting, Estimator, Sequence};
 
-/// Path bits that may be extrapolated to.
+/// The largest number of path bits, including extrapolated ones.
 const MOST_PATHS: u32 = 32;
-/// What a path bit must save of the queries to be worth it.
+/// The fraction of the queries that each further path bit must save.
 const WORTH: f64 = 0.0625;
-/// Path bits that are looked ahead: registers double, so that a saving may need more than one.
+/// Number of path bits to look ahead: registers grow by doubling, so a saving may need several
+/// bits.
 const AHEAD: u32 = 3;
-/// The phase register that a search begins with.
+/// Phase bits at which a search begins.
 const START: u32 = 6;
-/// The largest phase register.
+/// The largest number of phase bits.
 const MOST_PHASE: u32 = 40;
-/// How often the queries of a register that is large enough for all channels alike may double, where
-/// each stops by itself: for those that need more than most.
+/// Further phase bits, each of which doubles the queries, for an estimator that stops each channel
+/// by itself: some channels need more queries than the register that suffices if all use it fully.
 const SPARE: u32 = 2;
-/// Errors at which estimators may stop lie between these, in steps of 2^(1/STEPS) of the asked one.
+/// The range of errors at which estimators may stop, in steps of a factor 2^(1/STEPS) from the
+/// requested error.
 const WIDTHS: [i32; 2] = [-32, 64];
 const STEPS: f64 = 32.0;
 /// Fraction bits that are tried.
 const FRACTIONS: std::ops::RangeInclusive<u32> = 8..=30;
-/// Polygons beyond which building a circuit takes long, so that fewer are tried.
+/// With more polygons than this, building a circuit takes long, so fewer fraction bits are tried.
 const MANY_POLYGONS: usize = 200;
 
-/// Fraction bits, the error that they leave, and what a call costs then.
+/// Fraction bits, the error with them, and the cost of a call.
 type Width = (u32, Errors, CallCost);
 
-/// A counting block, and how it does.
+/// A counting block, its errors and its queries.
 #[derive(Clone)]
 struct Counted {
     counting: Counting,
@@ -39,7 +41,7 @@ struct Counted {
 }
 
 impl Counted {
-    /// Of a pixel, on average.
+    /// Mean queries of a pixel.
     fn queries(&self) -> f64 {
         self.channel_queries.iter().sum()
     }
@@ -47,7 +49,7 @@ impl Counted {
 
 pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, PlanError> {
     if pilot.mean <= 0.0 {
-        // Proven black: nothing is counted, and nothing is wrong.
+        // The picture is proven black: there is nothing to count, and no error.
         let path_bits = pilot_bits(&pilot, FEWEST);
         return finish(&mut pilot, path_bits, None, None);
     }
@@ -56,7 +58,7 @@ pub(super) fn search(mut pilot: Pilot<'_>) -> Result<Plan, PlanError> {
     finish(&mut pilot, path_bits, width, Some(counted))
 }
 
-/// A lattice has the bits that it has.
+/// Returns `bits` for a net; for a lattice, its own path bits.
 fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
     let sampling = &pilot.scene.scene().sampling;
     match sampling.sequence {
@@ -65,7 +67,8 @@ fn pilot_bits(pilot: &Pilot<'_>, bits: u32) -> u32 {
     }
 }
 
-/// Fewest paths of which more would hardly save queries, at any width.
+/// Chooses the smallest number of paths beyond which more paths save few queries. The choice holds
+/// for numbers of any width.
 fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), PlanError> {
     let none = vec![[0.0; 3]; pilot.pixels.len()];
     if pilot.is_lattice() {
@@ -102,7 +105,8 @@ fn choose_paths(pilot: &mut Pilot<'_>) -> Result<(u32, Counted), PlanError> {
     chosen.ok_or_else(|| out_of_reach(pilot, MOST_PATHS))
 }
 
-/// Whether the paths' error alone leaves anything for counting.
+/// Returns whether the errors of paths and comparators alone keep the accuracy, so that an error of
+/// counting may be added.
 fn alone_will_do(pilot: &mut Pilot<'_>, bits: u32) -> Result<bool, PlanError> {
     let (paths, _) = pilot.paths(bits)?;
     Ok(will_do(pilot, &[&paths, &pilot.comparator_errors], None))
@@ -125,7 +129,8 @@ fn out_of_reach(pilot: &Pilot<'_>, bits: u32) -> PlanError {
     })
 }
 
-/// Numbers so wide that queries times Toffolis are least; none where there is no circuit.
+/// Chooses the width of numbers with the smallest product of queries and Toffolis; `None` if there
+/// is no circuit.
 fn choose_width(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
@@ -147,7 +152,7 @@ fn choose_width(
             continue;
         };
         has_circuit = true;
-        // With no error of width at all it would cost so much: wider ones cost more.
+        // A lower bound: the cost if this width had no error. Wider numbers cost more.
         let least = spent.toffoli as f64 * wide.queries().max(1.0);
         if best.as_ref().is_some_and(|best| best.0 <= least) {
             break;
@@ -171,10 +176,10 @@ fn choose_width(
     }
 }
 
-/// The counting block with the fewest queries that will do beside the errors of so many paths, of
-/// comparators and of `width`: the smallest register or a smaller one repeated; of estimators that
-/// stop by themselves the largest error to stop at. The search begins with a register of `start`
-/// bits.
+/// The counting block with the fewest queries that keeps the accuracy together with the errors of
+/// `2^path_bits` paths, of comparators and of `width`. It has the smallest register, or a smaller
+/// one that is repeated; for an estimator that stops by itself, the largest error to stop at. The
+/// search begins with a register of `start` bits.
 fn cheapest(
     pilot: &mut Pilot<'_>,
     path_bits: u32,
@@ -205,11 +210,11 @@ fn cheapest(
         let counting = Counting::default();
         return attempt(counting.phase_bits, counting.repetitions, None);
     }
-    // Nothing is gained by counting where everything else is too wrong already.
+    // Counting cannot help if the other errors are too large already.
     if !will_do(pilot, &[&paths, &pilot.comparator_errors, width], None) {
         return Ok(None);
     }
-    // From where a like search ended, down as long as it will do, or up until it does.
+    // Begins where a similar search ended: goes down while the accuracy is kept, or up until it is.
     let mut found = attempt(start, 1, None)?;
     let mut phase_bits = start;
     if found.is_some() {
@@ -227,7 +232,8 @@ fn cheapest(
         return Ok(None);
     };
     if pilot.estimator.stops_itself() {
-        // Channels differ in what they need: each stops when its interval is narrow enough.
+        // Channels need different numbers of queries: each stops when its interval is narrow
+        // enough.
         let most = (phase_bits + SPARE).min(MOST_PHASE);
         let error = |step: i32| {
             let asked = pilot.accuracy.error * pilot.mean;
@@ -247,7 +253,7 @@ fn cheapest(
             }
         }
     } else {
-        // A smaller register, repeated.
+        // Tries a smaller register, repeated.
         let repeated: &[u32] = if phase_bits > 4 { &[7, 6, 5] } else { &[] };
         for &repetitions in repeated {
             match attempt(phase_bits - 3, repetitions, None)? {

@@ -1,23 +1,23 @@
-//! All parts of the error together.
+//! The combination of all parts of the error.
 
 use super::pilot::{Errors, Pilot};
 
 /// The margin in standard errors, for a one-sided confidence of 95 %.
 const MARGIN: f64 = 1.645;
 
-/// Whether channels are within the asked error as often as was asked, with what may be bad luck.
+/// Returns whether enough channels are within the requested error, with a margin for chance.
 pub(super) fn will_do(pilot: &Pilot<'_>, others: &[&Errors], counted: Option<&[Errors]>) -> bool {
     let (failing, deviation) = failing(pilot, others, counted);
     failing + MARGIN * deviation <= 1.0 - pilot.accuracy.confidence
 }
 
-/// The fraction of channels that is expected beyond the asked error, and the standard deviation of
-/// what a picture's own fraction differs by.
+/// The expected fraction of channels beyond the requested error, and the standard deviation of the
+/// difference between it and the fraction of one picture.
 ///
-/// Of N pixels n were tried, k times each. With v for the variance of a pixel's fraction from try to
-/// try, and V of its mean from pixel to pixel, in which v/k is, the difference has
-/// `V (1/n - 1/N)` for the pixels that were not tried, and `(v + v/k)/N` for the picture's own try
-/// and those that stand for it.
+/// Of N pixels, n were sampled, with k tries each. Let v be the variance of a pixel's fraction
+/// between tries, and V the variance of its mean between pixels, which includes v/k. The variance
+/// of the difference is `V (1/n - 1/N)` for the pixels outside the sample, plus `(v + v/k)/N` for
+/// the picture's own try and the tries that stand for it.
 pub(super) fn failing(
     pilot: &Pilot<'_>,
     others: &[&Errors],
@@ -49,8 +49,8 @@ pub(super) fn failing(
     (mean, variance.max(0.0).sqrt())
 }
 
-/// All errors of a pixel together, pixel by pixel and run by run. The first of `others`, the difference of two nets,
-/// has either sign.
+/// Calls `take` with the combined error of each pixel, run by run. The first of `others`, the
+/// difference of two nets, is added with either sign.
 pub(super) fn each_total(
     pilot: &Pilot<'_>,
     others: &[&Errors],

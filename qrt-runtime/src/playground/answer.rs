@@ -1,12 +1,12 @@
-//! What a figure is told: named numbers, lists of numbers and texts.
+//! The answer to a call of the playground: named numbers, lists of numbers and texts.
 //!
-//! Numbers lie one after another in one list of `f64`, so that a script reads them from the module's
-//! memory without parsing. The index beside it is JSON: a name stands for `[place]` of a number,
-//! for `[place, length]` of a list, or for a text.
+//! All numbers are in one list of `f64`, so that a script reads them from the module's memory
+//! without parsing. The index is JSON: it maps a name to `[place]` for a number, to
+//! `[place, length]` for a list, or to a text.
 
 use std::fmt::Write;
 
-/// Named values, in the order in which they were given.
+/// Named values, in the order in which they were added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
     numbers: Vec<f64>,
@@ -21,19 +21,19 @@ enum Entry {
 }
 
 impl Answer {
-    /// With a number.
+    /// Adds a number.
     pub fn number(mut self, name: &'static str, value: f64) -> Self {
         self.entries.push((name, Entry::Number(self.numbers.len())));
         self.numbers.push(value);
         self
     }
 
-    /// With a list of numbers.
+    /// Adds a list of numbers.
     pub fn list(self, name: &'static str, values: impl IntoIterator<Item = f64>) -> Self {
         self.list_from(name, &mut values.into_iter())
     }
 
-    /// Once for all kinds of lists, which browsers have to load.
+    /// Compiled once for all kinds of iterators, because browsers have to load the code.
     fn list_from(mut self, name: &'static str, values: &mut dyn Iterator<Item = f64>) -> Self {
         let start = self.numbers.len();
         for value in values {
@@ -44,13 +44,13 @@ impl Answer {
         self
     }
 
-    /// With a text.
+    /// Adds a text.
     pub fn text(mut self, name: &'static str, text: impl Into<String>) -> Self {
         self.entries.push((name, Entry::Text(text.into())));
         self
     }
 
-    /// With several texts that have no line feeds: one text, a line each.
+    /// Adds several texts without line feeds as one text, with a line for each.
     pub fn lines(self, name: &'static str, lines: &[impl AsRef<str>]) -> Self {
         let mut text = String::new();
         for (place, line) in lines.iter().enumerate() {
@@ -62,12 +62,12 @@ impl Answer {
         self.text(name, text)
     }
 
-    /// All numbers.
+    /// Returns all numbers.
     pub fn numbers(&self) -> &[f64] {
         &self.numbers
     }
 
-    /// The number of that name.
+    /// Returns the number with that name.
     pub fn number_of(&self, name: &str) -> Option<f64> {
         match self.entry(name)? {
             Entry::Number(place) => self.numbers.get(*place).copied(),
@@ -75,7 +75,7 @@ impl Answer {
         }
     }
 
-    /// The list of that name.
+    /// Returns the list with that name.
     pub fn list_of(&self, name: &str) -> Option<&[f64]> {
         match self.entry(name)? {
             Entry::List(start, length) => self.numbers.get(*start..start + length),
@@ -83,7 +83,7 @@ impl Answer {
         }
     }
 
-    /// The text of that name.
+    /// Returns the text with that name.
     pub fn text_of(&self, name: &str) -> Option<&str> {
         match self.entry(name)? {
             Entry::Text(text) => Some(text),
@@ -98,7 +98,7 @@ impl Answer {
             .map(|(_, entry)| entry)
     }
 
-    /// The index, as JSON.
+    /// Returns the index as JSON.
     pub fn index(&self) -> String {
         let mut out = String::from("{");
         for (place, (name, entry)) in self.entries.iter().enumerate() {
@@ -122,7 +122,7 @@ impl Answer {
     }
 }
 
-/// Writes a text as a string of JSON.
+/// Writes a text as a JSON string.
 fn quote(out: &mut String, text: &str) {
     out.push('"');
     for c in text.chars() {

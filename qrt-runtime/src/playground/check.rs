@@ -1,11 +1,11 @@
-//! What is wrong with a scene, for an editor that underlines it.
+//! The problems of a scene, for an editor that underlines them.
 
 use super::Answer;
 use qrt_core::front::Loaded;
 use qrt_core::syntax::{Report, Reported};
 
-/// The problems of a scene, or its warnings and what it is. `from` and `to` count UTF-16 units, as
-/// scripts do; a problem without a place is at the text's start.
+/// Answers the problems of a scene, or its warnings and its properties. `from` and `to` count
+/// UTF-16 units, as scripts do. A problem without a place is put at the start of the text.
 pub(super) fn check(loaded: Result<Loaded, Report>) -> Answer {
     match loaded {
         Err(report) => problems(Answer::default().number("valid", 0.0), &report),

@@ -1,12 +1,12 @@
-//! What a scene's oracle costs.
+//! The cost of a scene's oracle.
 
 use super::{Answer, Refused};
 use crate::draw;
 use qrt_core::inspect::{Inspection, Part};
 use qrt_core::valid::ValidScene;
 
-/// The costs of the most expensive of the scene's oracles, as `qrt inspect` reports them, its stages in the order
-/// in which they are computed, and its drawing.
+/// Answers the costs of the most expensive of the scene's oracles, as `qrt inspect` reports them,
+/// its stages in the order of computation, and its drawing.
 pub(super) fn cost(scene: &ValidScene) -> Result<Answer, Refused> {
     let inspection = Inspection::most_expensive(scene, None)?;
     let total = inspection.total();

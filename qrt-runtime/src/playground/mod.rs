@@ -1,29 +1,30 @@
-//! Scenes that are tried while they are written: what the playground asks and is told.
+//! The playground: scenes are checked, rendered and inspected while the user writes them.
 //!
-//! A page's scripts call a [`Playground`] by name, with numbers and a text, and get an [`Answer`].
-//! In the book it runs in the page, compiled to WebAssembly; `qrt playground` runs it on the
-//! machine that serves the page. Both are one and the same code, and nothing is computed a second
-//! time in a script.
+//! A page's scripts call a [`Playground`] with the name of a call, numbers and a text, and get an
+//! [`Answer`]. In the book, the playground runs in the page, compiled to WebAssembly;
+//! `qrt playground` runs it on the machine that serves the page. Both run the same code, and no
+//! script repeats a computation.
 //!
-//! | call | numbers | text | answers |
+//! | call | numbers | text | answer |
 //! |---|---|---|---|
-//! | `examples` | | | their names, a line each |
-//! | `example` | | its name | its text |
-//! | `check` | | a scene | its problems and warnings, and what it is |
-//! | `open` | model (0 real, 1 fixed, 2 both), seed, part, parts | a scene | what the picture is |
+//! | `examples` | | | the names of the examples, a line each |
+//! | `example` | | the name of an example | its text |
+//! | `check` | | a scene | its problems and warnings, and its properties |
+//! | `open` | model (0 real, 1 fixed, 2 both), seed, part, parts | a scene | its properties |
 //! | `trace` | first, count, bits | | the means of the first `2^bits` paths of these pixels |
-//! | `beside` | first, count, bits | | of both: the fixed means of the same paths, and how far they are off |
-//! | `estimate` | first, count, phase bits | an estimator, or nothing | what it says of them |
+//! | `beside` | first, count, bits | | the fixed model's means of the same paths, and their errors |
+//! | `estimate` | first, count, phase bits | an estimator, or nothing | its estimates of these pixels |
 //! | `cost` | | a scene | Toffolis, qubits, stages; the oracle as an SVG |
 //! | `pixel` | column, row, seed, phase bits | a scene | its paths, its counts and their distribution |
 //!
-//! A playground has one picture, or every `parts`-th pixel of one, from the `part`-th on, so that
-//! several share the work. Pixels are numbered by rows, from the top, within the part. Lists of
-//! colours are linear radiance: red, green and blue of a pixel, then of the next. Where both models
-//! are asked for, the picture is the real one, and the fixed one lies beside it.
+//! A playground has one picture, or every `parts`-th pixel of one, beginning with pixel `part`, so
+//! that several playgrounds can share the work. Pixels are numbered by rows, from the top, within
+//! the part. Lists of colours are linear radiance: red, green and blue of a pixel, then of the
+//! next. If both models are open, the picture is the real one, and the call `beside` answers the
+//! fixed one.
 //!
-//! A scene that asks for an `accuracy` is shown with the parameters that it would have without:
-//! planning takes longer than anybody waits who is writing.
+//! A scene with an `accuracy` is shown with the parameters that it would have without it: planning
+//! takes too long while the user is writing.
 
 mod answer;
 mod check;
@@ -46,23 +47,24 @@ use qrt_core::sampling::SamplingError;
 use qrt_core::syntax::{Problem, Report};
 use qrt_core::valid::ValidScene;
 
-/// The name under which errors show the scene's text.
+/// The name of the scene's text in error messages.
 const NAME: &str = "scene.yaml";
-/// Triangles that a scene's meshes may have.
+/// The largest number of triangles of a scene's meshes.
 const MOST_FACES: usize = 20_000;
-/// Pixels that a picture may have.
+/// The largest number of pixels of a picture.
 const MOST_PIXELS: u64 = 1 << 18;
 
-/// A scene that is tried.
+/// A playground with the picture that is open.
 pub struct Playground<'a> {
     examples: &'a [(&'a str, &'a str)],
     files: Files<'a>,
     picture: Option<Picture>,
-    /// The same with the circuit's integers, where both are asked for.
+    /// The picture of the fixed model, computed with the circuit's integers, if both models are
+    /// open.
     beside: Option<Picture>,
 }
 
-/// Why there is no answer.
+/// An error of a call.
 #[derive(Debug, thiserror::Error)]
 enum Refused {
     #[error("there is no call `{0}`")]
@@ -107,8 +109,8 @@ impl From<OracleError> for Refused {
 }
 
 impl<'a> Playground<'a> {
-    /// With scenes to begin with, by name and text, and the files that scenes may name: meshes and
-    /// their material libraries.
+    /// Creates a playground. `examples` are scenes by name and text; `files` are the files that
+    /// scenes may refer to: meshes and their material libraries.
     pub fn new(examples: &'a [(&'a str, &'a str)], files: Files<'a>) -> Self {
         Self {
             examples,
@@ -118,7 +120,7 @@ impl<'a> Playground<'a> {
         }
     }
 
-    /// Answers a call; what goes wrong is an answer, too: the text `error`.
+    /// Answers a call. The answer to a failed call is the text `error`.
     pub fn call(&mut self, name: &str, numbers: &[f64], text: &str) -> Answer {
         let found = match name {
             "examples" => {
@@ -156,7 +158,7 @@ impl<'a> Playground<'a> {
         parse_with(text, NAME, &[], self.files)
     }
 
-    /// The scene, with an accuracy left out that it may ask for.
+    /// Parses the scene, and drops its accuracy if it has one.
     fn scene(&self, text: &str) -> Result<ValidScene, Refused> {
         let loaded = self.load(text).map_err(Refused::Scene)?;
         let scene = &loaded.valid;
@@ -201,7 +203,7 @@ impl<'a> Playground<'a> {
     }
 }
 
-/// So many whole numbers.
+/// Converts `numbers` to `N` whole numbers, which must not be negative.
 fn whole<const N: usize>(call: &'static str, numbers: &[f64]) -> Result<[u64; N], Refused> {
     let numbers: &[f64; N] = numbers.try_into().map_err(|_| Refused::Numbers(call))?;
     if numbers.iter().all(|number| (0.0..9e15).contains(number)) {

@@ -1,4 +1,4 @@
-//! A picture that refines: over more and more paths, and counted with more and more queries.
+//! A picture that is refined: with more and more paths, and with more and more queries.
 
 use super::{Answer, Refused};
 use crate::counting::{Comparators, Octaves};
@@ -13,10 +13,10 @@ use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_core::valid::ValidScene;
 use std::ops::Range;
 
-/// What counts where the scene takes the amplitude itself.
+/// The estimator that is used if the scene's own is `exact`.
 const DEFAULT: Estimator = Estimator::AdaptiveBayes;
 
-/// A part of a picture, as far as it is.
+/// A part of a picture, as far as it is traced.
 pub(super) struct Picture {
     classes: PixelClasses,
     machines: Vec<(PixelClass, Machine)>,
@@ -26,15 +26,15 @@ pub(super) struct Picture {
     seed: u64,
     film: [u32; 2],
     pixels: Vec<[u32; 2]>,
-    /// By pixel: what its first paths add up to.
+    /// By pixel, the sums over its traced paths.
     tallies: Vec<Tally>,
-    /// By pixel: how many paths these are.
+    /// By pixel, the number of traced paths.
     paths: Vec<u64>,
-    /// By pixel: what was estimated last, and the queries that it took.
+    /// By pixel, the last estimate, and the queries that it took.
     estimated: Vec<([f64; 3], u64)>,
 }
 
-/// What traces the pixels of a class, and what their paths are compared with.
+/// The machine that traces the pixels of a class, and their comparators.
 struct Machine {
     source: Source,
     bound: [f64; 3],
@@ -79,7 +79,7 @@ impl Machine {
         })
     }
 
-    /// The mean of so many paths: of their colours, or of the thresholds that these exceed.
+    /// The mean of `paths` paths: of their colours, or of the thresholds that the colours exceed.
     fn mean(&self, tally: &Tally, paths: u64, comparator_bits: u32) -> [f64; 3] {
         let ids = (paths << comparator_bits) as f64;
         std::array::from_fn(|c| match &self.source {
@@ -90,7 +90,7 @@ impl Machine {
 }
 
 impl Picture {
-    /// Of every `parts`-th pixel from the `part`-th on.
+    /// Creates the part of the picture with every `parts`-th pixel, beginning with pixel `part`.
     pub(super) fn new(
         scene: &ValidScene,
         model: Model,
@@ -146,7 +146,8 @@ impl Picture {
             .lines("estimators", &estimators)
     }
 
-    /// The scene's estimator; one that measures.
+    /// The scene's estimator, or the default one if the scene's own is `exact`, which does not
+    /// measure.
     fn estimator(&self) -> Estimator {
         match self.counting.estimator {
             Estimator::Exact => DEFAULT,
@@ -157,7 +158,7 @@ impl Picture {
     fn machine(&self, pixel: [u32; 2]) -> &Machine {
         let class = self.classes.of(pixel);
         let found = self.machines.iter().find(|(of, _)| *of == class);
-        // There is one for each class that a pixel may be of.
+        // `machines` has an entry for every class of the picture's pixels.
         &found.unwrap_or(&self.machines[0]).1
     }
 
@@ -166,8 +167,9 @@ impl Picture {
         first..first.saturating_add(count).min(self.pixels.len())
     }
 
-    /// Traces what is missing of the first `2^bits` paths, at most all, of those of these pixels
-    /// that have as many paths as the first. Answers the means, and how many pixels there are.
+    /// Traces the missing ones of the first `2^bits` paths, at most all paths of the scene. It
+    /// traces the pixels of the range up to the first one whose number of traced paths differs from
+    /// that of the first pixel. Answers the means, and which pixels they are of.
     pub(super) fn trace(
         &mut self,
         first: usize,
@@ -205,8 +207,8 @@ impl Picture {
             .list("radiance", means.into_iter().flatten()))
     }
 
-    /// What was `traced` here, and how far it is from what `other` has of the same paths: the sum
-    /// of the other's values, and of the squares of the differences.
+    /// Adds to the answer `traced` the difference from `other` on the same paths: the sum of the
+    /// other's values, and the sum of the squares of the differences.
     pub(super) fn against(&self, other: &Self, traced: Answer) -> Result<Answer, Refused> {
         let [first, count] = ["first", "count"].map(|name| traced.number_of(name).unwrap_or(0.0));
         let range = self.range(first as usize, count as usize);
@@ -232,9 +234,10 @@ impl Picture {
         )
     }
 
-    /// Estimates these pixels anew from all their paths, as `qrt render` does with so many phase
-    /// bits; by the scene's estimator unless one is named. Answers the colours, and of the pixels
-    /// together: the sum of what they are, of the squares of what they are off by, and of queries.
+    /// Estimates these pixels anew from all their paths, as `qrt render` does with `phase_bits`
+    /// phase bits. It uses the estimator `name`, or the scene's if that is empty. Answers the
+    /// colours and, over these pixels, the sums of the exact values, of the squared errors, and of
+    /// the queries.
     pub(super) fn estimate(
         &mut self,
         name: &str,

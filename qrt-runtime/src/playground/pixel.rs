@@ -1,4 +1,4 @@
-//! A pixel looked at: its brightest paths, its counts, and what a phase register shows of them.
+//! One pixel: its brightest paths, its counts, and the distribution that a phase register shows.
 
 use super::{Answer, Refused};
 use crate::counting::{Comparators, PhaseDistribution};
@@ -10,11 +10,12 @@ use qrt_core::tracer::PixelClasses;
 use qrt_core::valid::ValidScene;
 use std::fmt::Write as _;
 
-/// Paths that are told of.
+/// The largest number of paths that the answer lists.
 const BRIGHTEST: usize = 6;
-/// Bars of the histogram: by brightness, halves of the scale, and last what is black.
+/// Bars of the histogram: one for each halving of brightness from the scale down; one more is for
+/// black.
 const HALVES: usize = 16;
-/// Phase bits of which every outcome can be drawn.
+/// The largest phase register of which every outcome can be drawn, in bits.
 const MOST_PHASE: u32 = 10;
 
 pub(super) fn pixel(
@@ -97,7 +98,7 @@ pub(super) fn pixel(
         ))
 }
 
-/// `37: floor, wall, lamp: 0.42 0.4 0.31`
+/// Formats a path like `37: floor, wall, lamp: 0.42 0.4 0.31`.
 fn told(id: u64, path: &TracedPath<'_>) -> String {
     let mut told = id.to_string() + ": ";
     for (place, ray) in path.rays.iter().enumerate() {
@@ -107,7 +108,7 @@ fn told(id: u64, path: &TracedPath<'_>) -> String {
         told.push_str(ray.hit.map_or("nothing", |hit| hit.name));
     }
     let [r, g, b] = path.colour;
-    // Nothing fails that writes into a string.
+    // Writing into a string cannot fail.
     let _ = write!(told, ": {r:.4} {g:.4} {b:.4}");
     told
 }

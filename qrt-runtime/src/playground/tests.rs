@@ -3,7 +3,7 @@ use crate::render::{Options, render};
 use qrt_core::front::parse;
 use qrt_core::scene::Estimator;
 
-/// A floor under a sky, a lamp that some pixels see, and one that reflects.
+/// A floor under a lamp. Some pixels see the lamp itself, others its light reflected by the floor.
 const FLOOR: &str = "
 name: floor
 camera: { perspective: { eye: [0, 2, 4], target: [0, 0.4, 0], vfov: 40 } }
@@ -25,7 +25,7 @@ fn list(answer: &Answer, name: &str) -> Vec<f64> {
         .to_vec()
 }
 
-/// The pictures of a scene, shared by so many, in steps: exact and counted by their parts.
+/// The pictures of a scene, traced in steps by `parts` playgrounds: exact, and estimated.
 fn shown(model: f64, parts: usize, estimator: &str) -> [Vec<f64>; 2] {
     let mut pictures = [vec![0.0; 9 * 7 * 3], vec![0.0; 9 * 7 * 3]];
     for part in 0..parts {
@@ -101,7 +101,8 @@ fn both_pictures_lie_side_by_side_with_their_distance() {
         &playground.call("trace", &[0.0, pixels, 6.0], ""),
         "radiance",
     );
-    // A part had been traced before it was refused: those pixels are told apart.
+    // The refused call had traced some pixels: an answer covers only pixels with equally many
+    // paths.
     let (mut fixed, mut sum, mut squares) = (Vec::new(), 0.0, 0.0);
     while fixed.len() < real.len() {
         let first = (fixed.len() / 3) as f64;
@@ -119,10 +120,10 @@ fn both_pictures_lie_side_by_side_with_their_distance() {
     let off: f64 = off.sum();
     assert!(off > 0.0 && (squares - off).abs() < 1e-12 * off);
     assert!((sum - real.iter().sum::<f64>()).abs() < 1e-9);
-    // Counted is the real one.
+    // The estimate is that of the real model.
     let counted = playground.call("estimate", &[0.0, pixels, 7.0], "sine");
     assert_eq!(list(&counted, "radiance"), rendered(Model::Real, "sine"));
-    // Where one is asked for, none lies beside it.
+    // With one model, there is no second picture.
     playground.call("open", &[1.0, 3.0, 0.0, 1.0], FLOOR);
     let alone = playground.call("beside", &[0.0, 5.0, 6.0], "");
     assert!(alone.text_of("error").unwrap().contains("no picture"));
@@ -146,7 +147,7 @@ fn problems_are_at_their_places_as_scripts_count() {
     let code = answer.text_of("codes").unwrap();
     assert!(code.starts_with("QRT0"), "{code}");
     assert!(answer.text_of("helps").is_some_and(|help| !help.is_empty()));
-    // Warnings, too, and meshes only where there are some.
+    // Checks warnings, and meshes that exist or don't.
     let dark = text.replace("radiance: [4, 3, 0]", "radiance: [0, 0, 0]");
     let answer = playground.call("check", &[], &dark);
     let told = (answer.number_of("valid"), answer.number_of("problems"));
@@ -229,7 +230,7 @@ fn what_cannot_be_answered_says_why() {
     assert!(refused("estimate", &[0.0, 1.0, 7.0], "exact").contains("no estimator"));
     assert_eq!(refused("estimate", &[0.0, 1.0, 7.0], "iqae"), "");
     assert!(refused("pixel", &[9.0, 0.0, 0.0, 1.0], FLOOR).contains("no pixel 9, 0"));
-    // An accuracy is asked of those who have time.
+    // The playground ignores an accuracy.
     let asked = FLOOR.replace(
         "sampling: { path_bits: 6, ",
         "accuracy: { error: 0.1, confidence: 0.9 }\nsampling: { ",

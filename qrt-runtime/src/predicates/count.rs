@@ -1,4 +1,4 @@
-//! The fraction of paths on which a predicate holds.
+//! Counts the fraction of paths that satisfy a predicate.
 
 use super::check;
 use crate::estimators::{Device, Estimate, Noise, Problem, Settings};
@@ -17,30 +17,30 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Paths that are traced without looking up.
+/// Number of paths that a job traces without a check for cancellation.
 const RUN: u64 = 1 << 16;
 
-/// What one query of a predicate's oracle costs: compute, predicate, flip, uncompute.
+/// The cost of one query of a predicate's oracle: compute, predicate, flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct QueryCost {
     /// Toffoli gates.
     pub toffoli: u64,
-    /// The most qubits in use at any time.
+    /// The largest number of qubits in use at any time.
     pub qubits: u32,
 }
 
-/// The good paths of a pixel, counted.
+/// The count of good paths of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelCount {
     /// Column and row on the film.
     pub pixel: [u32; 2],
-    /// S, the number of good paths: what the device knows, and the estimator does not.
+    /// S, the number of good paths. The simulated device knows it, the estimator does not.
     pub good: u64,
-    /// The estimate of S/R, its interval, and the queries that it took.
+    /// The estimate of S/R, with its interval and its number of queries.
     pub estimate: Estimate,
 }
 
-/// The paths on which a predicate holds, counted.
+/// The count of the paths that satisfy a predicate.
 #[derive(Clone, Debug)]
 pub struct Counted {
     /// x, y, width and height on the film, in pixels.
@@ -49,30 +49,30 @@ pub struct Counted {
     pub film: [u32; 2],
     /// The pixels, row by row from the crop's top left corner.
     pub pixels: Vec<PixelCount>,
-    /// R, the paths of a pixel.
+    /// R, the number of paths of a pixel.
     pub paths: u64,
-    /// What traced the paths.
+    /// The model that traced the paths.
     pub model: Model,
-    /// What estimated the fractions.
+    /// The estimator of the fractions.
     pub estimator: Estimator,
-    /// What a query costs; none under [`Model::Real`], which has no circuit.
+    /// The cost of a query; `None` under [`Model::Real`], which has no circuit.
     pub cost: Option<QueryCost>,
 }
 
 impl Counted {
-    /// The estimated fraction of good paths, of all pixels together: in [0, 1].
+    /// The estimated fraction of good paths over all pixels, in [0, 1].
     pub fn fraction(&self) -> f64 {
         self.mean(|estimate| estimate.amplitude)
     }
 
-    /// An interval that contains the fraction wherever all pixels' intervals contain theirs. Of one
-    /// pixel it is that pixel's, with its confidence.
+    /// An interval that contains the fraction if every pixel's interval contains the fraction of
+    /// that pixel. For a single pixel, it is that pixel's interval, with its confidence.
     pub fn interval(&self) -> (f64, f64) {
         let low = self.mean(|estimate| estimate.interval.0);
         (low, self.mean(|estimate| estimate.interval.1))
     }
 
-    /// Queries of the oracle, of all pixels together.
+    /// Number of queries of the oracle, over all pixels.
     pub fn queries(&self) -> u128 {
         let queries = self
             .pixels
@@ -81,12 +81,12 @@ impl Counted {
         queries.sum()
     }
 
-    /// S of all pixels together.
+    /// S, the number of good paths, over all pixels.
     pub fn good(&self) -> u128 {
         self.pixels.iter().map(|pixel| u128::from(pixel.good)).sum()
     }
 
-    /// The pixel in this column and row of the film, if it is within the crop.
+    /// Returns the pixel in this column and row of the film, if it is within the crop.
     pub fn at(&self, [column, row]: [u32; 2]) -> Option<&PixelCount> {
         let [x, y, width, height] = self.crop;
         let (column, row) = (column.checked_sub(x)?, row.checked_sub(y)?);
@@ -97,7 +97,7 @@ impl Counted {
             .get(row as usize * width as usize + column as usize)
     }
 
-    /// The estimated fractions as a picture in grey, of the crop's size.
+    /// Converts the estimated fractions to a grey picture of the crop's size.
     pub fn image(&self) -> Image {
         let pixels = self.pixels.iter();
         let [x, y, width, height] = self.crop;
@@ -119,14 +119,14 @@ impl Counted {
     }
 }
 
-/// What traces the paths, and tells which of them are good.
+/// The machine that traces the paths and decides which of them are good.
 enum Machine {
     Real(Box<Real>),
     Oracle(OracleMachine),
 }
 
 impl Machine {
-    /// Adds the good paths among `ids` of each pixel to its sum.
+    /// Adds to each pixel's sum the number of its good paths among `ids`.
     fn add(
         &self,
         pixels: &[[u32; 2]],
@@ -156,19 +156,19 @@ impl Machine {
     }
 }
 
-/// Counts the paths of a scene of `qrt!` on which a predicate holds, pixel by pixel, as quantum
-/// counting over its oracle would: the estimator learns of the number S of good paths among R only
-/// what its measurements tell.
+/// Counts the paths of a scene of `qrt!` that satisfy a predicate, pixel by pixel, as quantum
+/// counting over the predicate's oracle would. Of the number S of good paths among R, the estimator
+/// learns only what its measurements show.
 ///
-/// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
-/// [`Recorder`], once. Of `options` count `seed`, `crop` (a pixel, a part of the film, or all of
-/// it), `model`, `estimator`, `noise`, `workers` and `quiet`. Under the estimator `exact` all R paths are
-/// asked for, one query each. The scene's `counting.error` is a radiance, and does not count here:
+/// The predicate gets a bit that is 0, and flips it on good paths. Its code runs once, on a
+/// [`Recorder`]. Of `options`, the count uses `seed`, `crop` (a pixel, a part of the film, or all
+/// of it), `model`, `estimator`, `noise`, `workers` and `quiet`. The estimator `exact` queries all
+/// R paths, with one query each. The scene's `counting.error` is a radiance and has no effect here:
 /// all queries of its counting block may be used.
 ///
 /// # Errors
-/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is no
-/// predicate, and a [`super::PredicateRefusal`] for options that none is asked with.
+/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is not a
+/// predicate, and a [`super::PredicateRefusal`] for options that predicates don't support.
 pub fn count_where<S: PathScene>(
     options: &Options<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
@@ -193,7 +193,7 @@ pub fn count_where<S: PathScene>(
         });
     };
     let (machine, cost) = machine(&predicate, options)?;
-    // Several small pixels at once, or a large one in parts.
+    // A job traces several pixels of few paths, or a part of a pixel of many paths.
     let together = (RUN / paths).max(1) as usize;
     let chunks: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
     let runs = paths.div_ceil(RUN);
@@ -230,7 +230,7 @@ pub fn count_where<S: PathScene>(
         }
     }
     let settings = Settings {
-        // There are no comparators, and so no strata of them.
+        // There are no comparators, and so no strata of comparators.
         strata: None,
         ..Settings::of(&scene.scene().counting)?
     };
@@ -258,7 +258,7 @@ pub fn count_where<S: PathScene>(
     })
 }
 
-/// What traces the paths, and what a query of its circuit costs.
+/// Creates the machine that traces the paths, with the cost of a query of its circuit.
 fn machine(
     predicate: &Predicate,
     options: &Options<'_>,

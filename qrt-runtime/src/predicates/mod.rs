@@ -1,16 +1,16 @@
-//! Paths on which a predicate of one's own holds: counted, rendered, and looked at one by one.
+//! User-defined predicates of paths: counts, pictures and single paths.
 //!
-//! A predicate is reversible code over the registers of a path: see
-//! [`qrt_core::oracle::paths`] for what they hold. It becomes a part of the oracle, between
-//! compute and uncompute: see [`Predicate`]. So the machines run it as they run a scene's colours:
+//! A predicate is reversible code over the registers of a path; [`qrt_core::oracle::paths`] lists
+//! these registers. The predicate becomes a part of the oracle, between compute and uncompute: see
+//! [`Predicate`]. The machines run it as they run a scene's colours:
 //!
 //! | model | the path | the predicate |
 //! |---|---|---|
 //! | `real` | the tracer in `f64`, each number rounded to the nearest of its register | its program, on integers |
-//! | `fixed` | the oracle's program, on integers | as a part of it |
-//! | `gates` | the oracle's circuit, gate by gate | as a part of it, with every ancilla looked at |
+//! | `fixed` | the oracle's program, on integers | as a part of the program |
+//! | `gates` | the oracle's circuit, gate by gate | as a part of the circuit, and every ancilla is checked |
 //!
-//! The crate `qrt` shows predicates at work, since `qrt!` makes the types of their registers.
+//! The crate `qrt` has examples of predicates, because `qrt!` creates the types of their registers.
 
 mod count;
 mod path;
@@ -26,7 +26,7 @@ use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::Predicate;
 use qrt_core::oracle::paths::PathScene;
 
-/// Refuses what is not asked with a predicate.
+/// Checks that `options` and the scene are supported with a predicate.
 pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), PredicateRefusal> {
     if predicate.scene().scene().accuracy.is_some() {
         return Err(PredicateRefusal::Accuracy);
@@ -43,15 +43,15 @@ pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), 
     Ok(())
 }
 
-/// Renders the light that arrives on the paths of a scene of `qrt!` on which a predicate holds: as
-/// [`crate::render::render`] does, with all other paths black.
+/// Renders the light of only those paths of a scene of `qrt!` that satisfy a predicate: as
+/// [`crate::render::render`], with all other paths black.
 ///
-/// The predicate flips the bit that it is given, which is 0, on good paths. It runs on a
-/// [`Recorder`], once.
+/// The predicate gets a bit that is 0, and flips it on good paths. Its code runs once, on a
+/// [`Recorder`].
 ///
 /// # Errors
-/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is no
-/// predicate, and a [`PredicateRefusal`] for options that none is asked with.
+/// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is not a
+/// predicate, and a [`PredicateRefusal`] for options that predicates don't support.
 pub fn render_where<S: PathScene>(
     options: &Options<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),

@@ -10,10 +10,10 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// A path, as a machine traces it.
+/// A path as traced by a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedPath<'a> {
-    /// The rays that the path has: the last one may meet something or nothing.
+    /// The rays of the path. Only the last one may meet nothing.
     pub rays: Vec<TracedRay<'a>>,
     /// The path's colour, in radiance: red, green, blue.
     pub colour: [f64; 3],
@@ -22,18 +22,18 @@ pub struct TracedPath<'a> {
 /// A ray of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TracedRay<'a> {
-    /// Where it starts, a point of the scene.
+    /// The point of the scene at which the ray starts.
     pub origin: [f64; 3],
-    /// Where it goes: of length 1, up to rounding.
+    /// The direction of the ray: of length 1, up to rounding.
     pub direction: [f64; 3],
-    /// What it meets, if anything.
+    /// The face that the ray meets, if any.
     pub hit: Option<TracedHit<'a>>,
 }
 
-/// What a ray meets.
+/// A face that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TracedHit<'a> {
-    /// How far away it is, in units of the scene.
+    /// The distance from the ray's origin, in units of the scene.
     pub distance: f64,
     /// The number of the face, from 1 on, in the order of the scene's polygons.
     pub face: u32,
@@ -41,7 +41,7 @@ pub struct TracedHit<'a> {
     pub material: u32,
     /// The material's name.
     pub name: &'a str,
-    /// Whether the face is met on its front.
+    /// True if the ray meets the front of the face.
     pub front: bool,
     /// The unit normal of the face's front.
     pub normal: [f64; 3],
@@ -54,7 +54,7 @@ impl fmt::Display for TracedHit<'_> {
     }
 }
 
-/// Lists the face and distance that each ray meets, in one line.
+/// Formats the face that each ray meets, in one line.
 impl fmt::Display for TracedPath<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, ray) in self.rays.iter().enumerate() {
@@ -68,15 +68,17 @@ impl fmt::Display for TracedPath<'_> {
     }
 }
 
-/// Traces path `id` of pixel (column, row) of a scene of `qrt!`, and reads every number of it that
-/// predicates read, in the scene's units. `seed` keys the shifts of the digital net, as in
+/// Traces path `id` of pixel (column, row) of a scene of `qrt!`, and returns every number of it
+/// that predicates can read, in the scene's units. `seed` keys the shifts of the digital net, as in
 /// [`crate::render::Options`].
 ///
-/// Under [`Model::Fixed`] and [`Model::Gates`] the numbers are what the registers hold that
-/// predicates read; under [`Model::Real`] they are the tracer's, before they are rounded to these.
+/// Under [`Model::Fixed`] and [`Model::Gates`], the numbers are the contents of the registers that
+/// predicates read. Under [`Model::Real`], they are the tracer's, before rounding to these
+/// registers.
 ///
 /// # Errors
-/// A pixel beyond the film, a path index beyond the scene's, a scene without a circuit.
+/// If the pixel is outside the film, the path index is beyond the last, or the scene has no
+/// circuit.
 pub fn trace_path<S: PathScene>(
     model: Model,
     seed: u64,
@@ -86,7 +88,7 @@ pub fn trace_path<S: PathScene>(
     trace_path_of(S::scene(), model, seed, pixel, id)
 }
 
-/// As [`trace_path`], of any scene.
+/// As [`trace_path`], for any scene.
 ///
 /// # Errors
 /// As [`trace_path`].
@@ -144,7 +146,7 @@ fn path<'a>(
     for depth in 0..formats.rays {
         let of = |number| value(PathNumber::Ray(depth, number));
         let vector = |number: fn(usize) -> RayNumber| [0, 1, 2].map(|axis| of(number(axis)));
-        // A ray of length 1 goes somewhere.
+        // A direction of 0 marks a ray that the path does not have.
         let direction = vector(RayNumber::Direction);
         if direction == [0.0; 3] {
             break;

@@ -1,4 +1,4 @@
-//! What a picture's circuit may cost: the scene's budget, and memory.
+//! Checks that a picture's circuit is within the scene's budget and the memory budget.
 
 use super::{Model, Options, RenderError};
 use crate::memory::CircuitWork;
@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use std::thread::available_parallelism;
 
 impl Options<'_> {
-    /// What is done with the scene's circuit, under the models that run one.
+    /// Returns how a render uses the scene's circuit; `None` for the real model, which runs none.
     pub fn circuit_work(&self) -> Option<CircuitWork> {
         let cores = || available_parallelism().map_or(1, NonZeroUsize::get);
         match self.model {
@@ -22,11 +22,13 @@ impl Options<'_> {
     }
 }
 
-/// That the circuit of a scene, whose parameters are chosen, fits into [`Options::memory`] and is within
-/// the scene's budget, under the models that run one.
+/// Checks that the circuit of a scene, whose parameters are chosen, fits into [`Options::memory`]
+/// and is within the scene's budget. Under [`Model::Real`], which runs no circuit, there is nothing
+/// to check.
 ///
 /// # Errors
-/// [`RenderError::WouldNotFit`], [`RenderError::Budget`], and why there is no circuit.
+/// [`RenderError::WouldNotFit`], [`RenderError::Budget`], or an error that the scene has no
+/// circuit.
 pub fn check_circuit(scene: &ValidScene, options: &Options<'_>) -> Result<(), RenderError> {
     let Some(work) = options.circuit_work() else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Pixels by class: those that may meet a lamp at once have another colour scale than others.
+//! Pixels by class: a pixel whose camera rays may meet a lamp has another colour scale than others.
 
 use super::parts::Parts;
 use super::pixel::{Pixels, Stop};
@@ -7,14 +7,15 @@ use super::{RenderError, Request, Searched};
 use crate::workers::Workers;
 use qrt_core::tracer::{PixelClass, PixelClasses};
 
-/// What traces and counts the pixels of each class.
+/// For each class, the machine that traces its pixels and the estimator that counts them.
 pub(super) struct Classes {
     of: PixelClasses,
     pixels: Vec<(PixelClass, Pixels)>,
 }
 
 impl Classes {
-    /// One for each class that the scene has, and what is searched for primary hits.
+    /// Creates an entry for each class of the scene. Also returns the search for primary hits, if
+    /// any.
     pub(super) fn new(request: &Request<'_>) -> Result<(Self, Option<Searched>), RenderError> {
         let of = PixelClasses::new(request.scene);
         let mut pixels = Vec::new();
@@ -27,7 +28,7 @@ impl Classes {
         Ok((Self { of, pixels }, searched))
     }
 
-    /// One for all pixels.
+    /// Creates a single entry for all pixels.
     pub(super) fn one(pixels: Pixels) -> Self {
         Self {
             of: PixelClasses::one(),
@@ -35,16 +36,16 @@ impl Classes {
         }
     }
 
-    /// That of a pixel's class.
+    /// Returns the entry for the class of a pixel.
     pub(super) fn at(&self, pixel: [u32; 2]) -> &Pixels {
         let class = self.of.of(pixel);
         let mut pixels = self.pixels.iter();
         let found = pixels.find(|(of, _)| *of == class);
-        // There is one for each class that a pixel may be of.
+        // There is an entry for each class of the scene's pixels.
         &found.unwrap_or(&self.pixels[0]).1
     }
 
-    /// Which scale each pixel has.
+    /// Returns the colour scale of each pixel.
     pub(super) fn scales(&self) -> Scales {
         let of = |(class, pixels): &(PixelClass, Pixels)| (*class, pixels.bound());
         Scales {
@@ -53,12 +54,12 @@ impl Classes {
         }
     }
 
-    /// Whether pixels are traced one by one: see [`Pixels::splits`].
+    /// Returns whether pixels are traced one by one: see [`Pixels::splits`].
     pub(super) fn splits(&self) -> bool {
         self.pixels.iter().any(|(_, pixels)| pixels.splits())
     }
 
-    /// The totals of all paths of `places`, which have few each: see [`Pixels::few`].
+    /// Adds the totals of all paths of `places`, pixels of few paths: see [`Pixels::few`].
     pub(super) fn few(
         &self,
         places: &[[u32; 2]],
@@ -91,7 +92,7 @@ impl Scales {
         found.unwrap_or(&self.bounds[0]).1
     }
 
-    /// The greatest of them.
+    /// Returns the largest bound of each channel.
     pub fn greatest(&self) -> [f64; 3] {
         let bounds = self.bounds.iter().map(|(_, bounds)| *bounds);
         bounds.fold([0.0; 3], |most, bounds| {

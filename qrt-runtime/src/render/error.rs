@@ -1,4 +1,4 @@
-//! Why a picture isn't rendered.
+//! Errors of rendering a picture.
 
 use crate::checkpoint::CheckpointError;
 use crate::counting::CountingError;
@@ -14,26 +14,26 @@ use qrt_core::scene::Estimator;
 use qrt_core::syntax::Problem;
 use std::path::{Path, PathBuf};
 
-/// Why a picture isn't rendered.
+/// An error of rendering a picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// No parameters keep the accuracy that the scene asks for.
+    /// No parameters keep the scene's accuracy.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// One run for all channels, and an estimator that measures no paths.
+    /// Colour from one run is requested with an estimator that measures no paths.
     #[error(
         "colour from one run is that of the paths which are measured, and the estimator `exact` \
          measures none: choose another estimator, or three runs"
     )]
     NothingMeasured,
-    /// Noise of measurements, with an estimator that makes none.
+    /// Noise of measurements is requested with an estimator that measures nothing.
     #[error(
         "noise is that of queries and measurements, and the estimator `exact` makes none: choose \
          another estimator, or no noise"
     )]
     NothingNoisy,
-    /// A crop without pixels, or not within the film.
+    /// The crop has no pixels, or is not within the film.
     #[error("{}", outside(.crop, *.film))]
     Crop {
         /// x, y, width, height.
@@ -41,42 +41,42 @@ pub enum RenderError {
         /// The film's width and height, in pixels.
         film: [u32; 2],
     },
-    /// More paths than a 64-bit word counts.
+    /// The number of paths overflows 64 bits.
     #[error(
         "{pixels} pixels of 2^{path_bits} paths are more than 2^64 paths, which no machine traces \
          in a lifetime: lower `sampling.path_bits`, or the film"
     )]
     TooManyPaths {
-        /// Pixels to be rendered.
+        /// Number of pixels to render.
         pixels: u64,
-        /// Paths of each, as a power of two.
+        /// Number of paths of a pixel, as a power of two.
         path_bits: u32,
     },
-    /// Layers of a picture are asked for with a scene that is not its own.
+    /// The layers of a picture are requested with the scene of another picture.
     #[error("this is not the scene that the picture was rendered of")]
     OtherScene,
-    /// More portions than the picture has pixels.
+    /// There are more portions than the picture has pixels.
     #[error("a picture of {pixels} pixels can't be cut into {count} portions: ask for fewer")]
     Portions {
-        /// How many portions.
+        /// Number of portions.
         count: u32,
-        /// Pixels of the picture.
+        /// Number of pixels of the picture.
         pixels: u64,
     },
-    /// A picture that doesn't fit into memory.
+    /// The picture does not fit into memory.
     #[error("there is not enough memory for {pixels} pixels")]
     Memory {
-        /// How many pixels it has.
+        /// Number of pixels of the picture.
         pixels: u64,
     },
-    /// What would take more memory than it may, by an estimate.
+    /// The work would exceed the memory budget, by an estimate.
     #[error(transparent)]
     WouldNotFit(#[from] MemoryError),
-    /// The scene's circuit costs more than its `budget` allows, which
-    /// [`qrt_core::front::Loaded::report`] shows at its place.
+    /// The scene's circuit costs more than its `budget` allows. [`qrt_core::front::Loaded::report`]
+    /// shows the problems at their places.
     #[error("the circuit is beyond the scene's budget: {}", first(.0))]
     Budget(Vec<Problem>),
-    /// A bound on a path's colour so large that sums over paths would overflow.
+    /// The bound on a path's colour is so large that sums over paths could overflow.
     #[error(
         "a path's {} can only be bounded by {bound:e}, too large to sum: lower the radiance or the \
          number of depths",
@@ -88,30 +88,30 @@ pub enum RenderError {
         /// The bound, in radiance.
         bound: f64,
     },
-    /// The sequence of paths can't be made.
+    /// The sequence of paths cannot be created.
     #[error(transparent)]
     Sampling(#[from] SamplingError),
     /// The scene has no circuit.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// A circuit that was compiled does not do what is asked.
+    /// The compiled circuit does not support the request.
     #[error(transparent)]
     Compiled(#[from] CompiledError),
-    /// Code that is no predicate of the scene's paths.
+    /// The code is not a predicate of the scene's paths.
     #[error(transparent)]
     Predicate(#[from] PredicateError),
-    /// What predicates are not asked with.
+    /// The options or the scene are not supported with a predicate.
     #[error(transparent)]
     PredicateRefusal(#[from] PredicateRefusal),
-    /// A path index beyond the last.
+    /// The path index is beyond the last.
     #[error("there is no path {id}: a pixel has 2^{path_bits} paths, from 0 on")]
     PathIndex {
         /// The index.
         id: u64,
-        /// Paths of a pixel, as a power of two.
+        /// Number of paths of a pixel, as a power of two.
         path_bits: u32,
     },
-    /// A path has a number that the register cannot hold in which a predicate reads it.
+    /// A path has a number that does not fit into the register from which a predicate reads it.
     #[error(
         "a path of pixel ({}, {}) has a number beyond its register; this is a defect of qrt, please \
          report it with the scene",
@@ -121,20 +121,20 @@ pub enum RenderError {
         /// Column and row on the film.
         pixel: [u32; 2],
     },
-    /// A model that has no oracle, and so nothing to search with.
+    /// A search for primary hits is requested with the real model, which has no oracle.
     #[error(
         "primary hits are searched for by a circuit, which the model `real` does not have: use \
          `fixed` or `gates`"
     )]
     SearchModel,
-    /// An estimator that counts the indices of a superposition, where every path is searched by
-    /// itself.
+    /// An estimator that counts indices in superposition is requested with a search for primary
+    /// hits, which searches every path by itself.
     #[error(
         "the estimator `{0}` counts paths in superposition, and primary hits are searched for path \
          by path: use `exact`, or find primary hits classically"
     )]
     SearchEstimator(Estimator),
-    /// A name that pictures cannot tell.
+    /// The name of the user-defined estimator is not valid.
     #[error(
         "`{name}` is no name of an estimator: 1 to 64 letters, digits, `_`, `-` or `.` of ASCII"
     )]
@@ -142,40 +142,41 @@ pub enum RenderError {
         /// The name.
         name: String,
     },
-    /// An estimator of one's own, where every path is searched by itself.
+    /// A user-defined estimator is requested with a search for primary hits, which searches every
+    /// path by itself.
     #[error(
         "an estimator of one's own counts paths in superposition, and primary hits are searched for \
          path by path: find primary hits classically"
     )]
     OwnSearches,
-    /// An estimator of one's own, with a scene whose parameters follow from what is known of those
-    /// that there are.
+    /// A user-defined estimator is requested with a scene that has an accuracy. Planning needs the
+    /// known error of an estimator.
     #[error(
         "the scene asks for an `accuracy`, which takes what is known of an estimator's error, and of \
          one of one's own nothing is: write the parameters into the scene"
     )]
     OwnAccuracy,
-    /// A search that cannot be made.
+    /// The search for primary hits cannot be set up.
     #[error(transparent)]
     Search(#[from] RoundsError),
-    /// The circuit does not do what an oracle must: a defect of qrt. The picture would prove
-    /// nothing, so there is none.
+    /// The circuit is not a valid oracle: a defect of qrt. The picture would prove nothing, so
+    /// there is none.
     #[error("{0}: a defect of qrt; the picture would prove nothing, so there is none")]
     Defect(#[from] Defect),
-    /// The pixels can't be counted as asked.
+    /// The pixels cannot be counted with these parameters.
     #[error(transparent)]
     Counting(#[from] CountingError),
-    /// The estimator can't do what it is asked.
+    /// The estimator does not support the request.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
-    /// The threads can't be started.
+    /// The threads cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
-    /// The checkpoint can't be used.
+    /// The checkpoint cannot be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
-    /// A path with a colour that is negative, not a number, or above the bound that was proven for it. It
-    /// would be counted as the bound, and the picture would be too dark, so there is none.
+    /// A path has a colour that is negative, not a number, or above its proven bound. It would be
+    /// counted as the bound, and the picture would be too dark, so there is none.
     #[error(
         "path {id} of pixel ({}, {}) has a {} of {colour:e}, outside [0, {bound:e}]; {}",
         .pixel[0], .pixel[1], name(*.channel), out_of_bounds_advice(*.fraction)
@@ -191,23 +192,23 @@ pub enum RenderError {
         colour: f64,
         /// The bound, in radiance.
         bound: f64,
-        /// Fraction bits of the numbers of a circuit; none of the real model.
+        /// Fraction bits of the circuit's numbers; `None` for the real model.
         fraction: Option<u32>,
     },
     /// The picture was cancelled before it was finished.
     #[error("interrupted after {finished} of {pixels} pixels{}", kept(.checkpoint.as_deref()))]
     Interrupted {
-        /// Pixels that are finished.
+        /// Number of finished pixels.
         finished: u64,
-        /// Pixels of the picture.
+        /// Number of pixels of the picture.
         pixels: u64,
-        /// The checkpoint that keeps the finished tiles, if there is one.
+        /// The checkpoint with the finished tiles, if there is one.
         checkpoint: Option<PathBuf>,
     },
 }
 
-/// What the circuit of a scene of `qrt!` does not do. [`super::render`] does it with one that it
-/// builds.
+/// A request that the compiled circuit of a scene of `qrt!` does not support. [`super::render`]
+/// supports it, with a circuit that it builds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompiledError {
@@ -217,7 +218,8 @@ pub enum CompiledError {
          of the two, or use `render`"
     )]
     Model,
-    /// The scene's parameters are chosen when it is rendered, after its circuit was compiled.
+    /// The scene has an accuracy: its parameters are chosen at the render, after its circuit was
+    /// compiled.
     #[error(
         "the scene asks for an `accuracy`, and its circuit was compiled before the parameters are \
          chosen that keep it: write the parameters into the scene, or use `render`"
@@ -229,7 +231,7 @@ pub enum CompiledError {
          counts: choose three runs, or use `render`"
     )]
     OneRun,
-    /// The circuit finds primary hits itself.
+    /// The circuit traces primary hits itself, so a search for them is not supported.
     #[error(
         "a compiled circuit finds primary hits itself, and none that are searched for: find \
          primary hits classically, or use `render`"
@@ -238,8 +240,8 @@ pub enum CompiledError {
 }
 
 impl RenderError {
-    /// Whether it is the request that can't be met, rather than the job that failed: another
-    /// attempt will fail alike.
+    /// Returns true if the request can't be met, so that another attempt will fail alike; false if
+    /// the job failed.
     pub fn is_refusal(&self) -> bool {
         match self {
             Self::Plan(error) => error.is_refusal(),
@@ -270,7 +272,8 @@ fn name(channel: usize) -> &'static str {
         .unwrap_or("?")
 }
 
-/// Advice on a path whose colour is out of bounds, on a machine of `fraction` bits; the real model has none.
+/// Advice for a path whose colour is out of bounds, on a machine of `fraction` bits; `None` is the
+/// real model.
 pub fn out_of_bounds_advice(fraction: Option<u32>) -> String {
     let report = "this is a defect of qrt, please report it with the scene";
     match fraction {
@@ -298,29 +301,29 @@ fn kept(checkpoint: Option<&Path>) -> String {
     })
 }
 
-/// What predicates are not asked with.
+/// A request that predicates don't support.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PredicateRefusal {
-    /// The scene's parameters are chosen for the error of its picture.
+    /// The scene has an accuracy, for which parameters are chosen by the error of its picture.
     #[error(
         "the scene asks for an `accuracy`, which is that of its picture: write the parameters into \
          the scene that a predicate is counted with"
     )]
     Accuracy,
-    /// One run for all channels.
+    /// One run for all channels is requested.
     #[error(
         "colour from one run takes the colours of all paths that are measured, whether or not a \
          predicate holds: choose three runs"
     )]
     OneRun,
-    /// Primary hits that are searched for.
+    /// A search for primary hits is requested.
     #[error(
         "a predicate is a part of the circuit that finds primary hits itself: find primary hits \
          classically"
     )]
     Visibility,
-    /// A checkpoint, which does not know whose paths it keeps.
+    /// A checkpoint is requested. A checkpoint does not record a predicate.
     #[error("a checkpoint keeps pictures of all paths, and none of a predicate: ask for none")]
     Checkpoint,
 }

@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The part of the picture that is finished.
+/// The finished pixels of a picture, with its checkpoint.
 pub(super) struct Film {
     crop: [u32; 4],
     pub(super) image: Image,
@@ -17,16 +17,18 @@ pub(super) struct Film {
     pub(super) good: Vec<[u64; 3]>,
     pub(super) widths: Vec<[f64; 3]>,
     pub(super) strata: Vec<[u8; 3]>,
-    /// Pixels that are finished.
+    /// Number of finished pixels.
     pub(super) finished: u64,
     pub(super) checkpoint: Option<Checkpoint>,
-    /// Parts of unfinished pixels that the checkpoint does not have yet, and since when.
+    /// Parts of unfinished pixels that are not in the checkpoint yet, and the time of the last
+    /// flush.
     pending: Vec<Part>,
     flushed: Instant,
 }
 
 impl Film {
-    /// For the part `crop` (x, y, width, height) of a film of so many columns and rows.
+    /// Creates an empty picture of the part `crop` (x, y, width, height) of a film of `film`
+    /// columns and rows.
     pub(super) fn new(crop: [u32; 4], film: [u32; 2]) -> Result<Self, RenderError> {
         let area = u64::from(crop[2]) * u64::from(crop[3]);
         let window = Window {
@@ -52,8 +54,9 @@ impl Film {
         })
     }
 
-    /// Opens the checkpoint, and tells which pixels it has, and which parts of others; of a new one, or
-    /// none, an empty list.
+    /// Opens the checkpoint. Returns for each pixel whether the checkpoint has it, and the parts of
+    /// other pixels. The list of pixels is empty if the checkpoint has none, or if there is no
+    /// checkpoint.
     pub(super) fn open(
         &mut self,
         options: &Options<'_>,
@@ -89,20 +92,21 @@ impl Film {
         Ok((finished, kept))
     }
 
-    /// Takes in what parts of unfinished pixels add up to.
+    /// Adds the totals of parts of unfinished pixels.
     pub(super) fn keep_parts(
         &mut self,
         parts: impl IntoIterator<Item = Part>,
     ) -> Result<(), RenderError> {
         self.pending.extend(parts);
-        // Parts come every AT_STAKE: each is handed on when the last ones were, not one later.
+        // Parts arrive every `AT_STAKE`. Half of it here, so that parts which arrive a little early
+        // are not held for another interval.
         if self.flushed.elapsed() >= AT_STAKE / 2 {
             self.flush()?;
         }
         Ok(())
     }
 
-    /// Hands the checkpoint what it does not have yet.
+    /// Appends the pending parts to the checkpoint.
     pub(super) fn flush(&mut self) -> Result<(), CheckpointError> {
         let pending = std::mem::take(&mut self.pending);
         if let Some(checkpoint) = &mut self.checkpoint {
@@ -112,11 +116,11 @@ impl Film {
         Ok(())
     }
 
-    /// Takes in a tile that took so long, once it is in the checkpoint.
+    /// Adds a tile that took the time `took`, after writing it to the checkpoint.
     pub(super) fn keep(&mut self, tile: &Tile, took: Duration) -> Result<(), RenderError> {
         if let Some(checkpoint) = &mut self.checkpoint {
             checkpoint.append(tile)?;
-            // Nobody knows when the next is finished.
+            // The next tile may take as long, so this one must not wait for it to become durable.
             if took >= AT_STAKE {
                 checkpoint.sync()?;
             }
@@ -131,7 +135,7 @@ impl Film {
         Ok(())
     }
 
-    /// Takes in a tile's pixels.
+    /// Copies a tile's pixels into the picture.
     pub(super) fn paint(&mut self, tile: &Tile) {
         let width = tile.width as usize;
         for (number, row) in rows(tile, self.crop).enumerate() {
@@ -145,7 +149,7 @@ impl Film {
     }
 }
 
-/// The checkpoint at `path`, if there is one.
+/// Opens the checkpoint at `path`, if there is one.
 fn there(path: &Path, header: &Header) -> Result<Option<(Checkpoint, Vec<Tile>)>, CheckpointError> {
     match Checkpoint::open(path, header) {
         Err(CheckpointError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Ok(None),
@@ -153,7 +157,7 @@ fn there(path: &Path, header: &Header) -> Result<Option<(Checkpoint, Vec<Tile>)>
     }
 }
 
-/// A value for each pixel, if there is memory for it.
+/// A list with a value for each pixel, or an error if there is not enough memory.
 fn filled<T: Clone>(value: T, pixels: u64) -> Result<Vec<T>, RenderError> {
     let memory = || RenderError::Memory { pixels };
     let size = usize::try_from(pixels).map_err(|_| memory())?;

@@ -14,17 +14,17 @@ use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// The option of a checkpoint that says which portion of the picture it is of.
+/// The option of a checkpoint that names the portion of the picture.
 pub(super) const PORTION: &str = "tile";
 
-/// A picture under way.
+/// A picture that is being rendered.
 pub(super) struct Job<'a> {
     request: Request<'a>,
     pixels: Classes,
     tiles: Tiles,
-    /// By pixel, whether a checkpoint has it; empty if there was none.
+    /// For each pixel, true if the checkpoint has it; empty if the checkpoint has none.
     resumed: Vec<bool>,
-    /// Parts of other pixels that it has.
+    /// The checkpoint's parts of other pixels.
     kept: Kept,
     film: Mutex<Film>,
 }
@@ -45,7 +45,7 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// Renders all tiles that the checkpoint does not have. The checkpoint comes back open.
+    /// Renders all tiles that the checkpoint does not have. Returns the checkpoint open.
     pub(super) fn run(self) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
         let Request {
             scene,
@@ -66,7 +66,7 @@ impl<'a> Job<'a> {
             });
             workers.run(|| {
                 let start = Instant::now();
-                // Each tile by itself: halves of a film rarely take equally long.
+                // Threads take tiles one by one, because halves of a film rarely take equally long.
                 let tiles = (0..self.tiles.count() as usize).into_par_iter();
                 let done = tiles
                     .with_max_len(1)
@@ -123,7 +123,7 @@ impl<'a> Job<'a> {
                 })
             }
             Err(Stop::Failed(error)) => {
-                // What failed first is what is told.
+                // Report the first error, and ignore one of closing.
                 let _ = closed(film.checkpoint);
                 Err(error)
             }
@@ -164,7 +164,8 @@ impl<'a> Job<'a> {
                 })
             });
             if let Err(stop) = finished {
-                // What is traced and not counted yet is not traced again.
+                // Keep the pixels that are traced but not counted yet, so that a resumed render
+                // does not trace them again.
                 let part = |(place, totals)| self.pixels.at(place).whole(place, totals);
                 kept.keeper().keep(of_pixels().map(part))?;
                 return Err(stop);
@@ -175,7 +176,7 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
-    /// Where parts of pixels are kept.
+    /// Returns the place where parts of pixels are kept.
     fn parts(&self) -> Parts<'_> {
         Parts {
             before: Some(&self.kept),
@@ -196,12 +197,13 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Whether there is something to go on from.
+/// Closes the checkpoint, and returns whether a later render can continue from it.
 fn closed(checkpoint: Option<Checkpoint>) -> Result<bool, CheckpointError> {
     checkpoint.map_or(Ok(false), Checkpoint::close)
 }
 
-/// What decides a pixel, and which pixels are rendered.
+/// Creates the checkpoint's header: all options that decide a pixel's value, and the rendered
+/// pixels.
 pub(super) fn header(request: &Request<'_>) -> Header {
     let Request { scene, options, .. } = *request;
     let decisive = [

@@ -1,4 +1,4 @@
-//! What an EXR file of a picture can hold beside its colours.
+//! Further layers of a picture's EXR file, beside its colours.
 
 use super::{RenderError, Rendered, tiles};
 use crate::image::Layer;
@@ -7,22 +7,23 @@ use glam::DVec3;
 use qrt_core::tracer::Start;
 use qrt_core::valid::ValidScene;
 
-/// Pixels whose primary hits are found at a time.
+/// Number of pixels whose primary hits are found at a time.
 const PIXELS: usize = 1 << 12;
 
 impl Rendered {
-    /// The layers of the picture of `scene`, pixel by pixel, each 0 where there is nothing to tell:
+    /// Creates the layers of the picture of `scene`, pixel by pixel. A value is 0 if there is
+    /// nothing to report.
     ///
-    /// - `interval.R`, `.G`, `.B`: how wide the interval of a channel is, in radiance ([`Rendered::widths`]);
-    ///   `interval.Y` alone, of the luminance, where one run makes the colour;
-    /// - `queries.Y`: queries of the oracle, all channels together;
-    /// - `depth.Z`: from the camera to what the ray through the pixel's middle meets first, along the
-    ///   ray, in units of the scene;
-    /// - `normal.X`, `.Y`, `.Z`: the unit normal there, on the side that is seen;
-    /// - `material.ID`: the number of the material there, from 1 on, in the order of
+    /// - `interval.R`, `.G`, `.B`: width of a channel's interval, in radiance
+    ///   ([`Rendered::widths`]); with colour from one run, only `interval.Y`, of the luminance;
+    /// - `queries.Y`: number of queries of the oracle, for all channels together;
+    /// - `depth.Z`: distance from the camera to the first hit of the ray through the pixel's
+    ///   centre, along the ray, in units of the scene;
+    /// - `normal.X`, `.Y`, `.Z`: the unit normal at that hit, on the visible side;
+    /// - `material.ID`: the number of the material at that hit, from 1 on, in the order of
     ///   [`ValidScene::surfaces`].
     ///
-    /// Viewers group the channels by what stands before the dot.
+    /// Viewers group channels by the name before the dot.
     ///
     /// # Errors
     /// If `scene` is not the scene of the picture, or has no paths.
@@ -64,13 +65,13 @@ impl Rendered {
     }
 }
 
-/// What the ray through the middle of a pixel meets first.
+/// The first hit of the ray through the centre of a pixel.
 struct FirstHit {
-    /// In units of the scene.
+    /// Distance in units of the scene.
     distance: f64,
-    /// Towards the viewer.
+    /// Unit normal towards the viewer.
     normal: DVec3,
-    /// Among the scene's surfaces, from 0.
+    /// Number of the material among the scene's surfaces, from 0.
     material: u32,
 }
 

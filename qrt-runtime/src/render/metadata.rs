@@ -1,4 +1,4 @@
-//! What a picture says of its own making.
+//! Metadata of a picture: a record of how it was made.
 
 use super::Rendered;
 use super::own::PREFIX;
@@ -6,10 +6,10 @@ use crate::image::{ImageError, Metadata};
 use qrt_core::scene::Estimator;
 
 impl Rendered {
-    /// How the picture was made: nothing in it changes from one run to the next.
+    /// Creates the metadata of the picture. It is the same on every run.
     ///
     /// # Errors
-    /// A scene whose name holds a NUL, which no picture can hold.
+    /// If the scene's name contains a NUL, which no picture file can hold.
     pub fn metadata(&self) -> Result<Metadata, ImageError> {
         let [columns, rows] = self.film;
         let sampling = &self.parameters.sampling;

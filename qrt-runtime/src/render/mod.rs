@@ -1,34 +1,34 @@
-//! From a scene to a picture: every path of every pixel, and what counting makes of them.
+//! Renders a scene: traces every path of every pixel, and counts or sums their colours.
 //!
-//! The machine traces all R paths of a pixel. Under the estimator `exact` the pixel is their mean,
+//! The machine traces all R paths of a pixel. Under the estimator `exact`, the pixel is their mean,
 //!
 //! ```text
 //! pixel = 1/R sum_id colour_id            real
 //! pixel = scale S/N                       fixed, gates
 //! ```
 //!
-//! Under any other, each path's colour is compared with the C comparators of its channel, as the
-//! oracle does it; the good among all `N = R C` indices are counted, and the estimator learns of
-//! their number S only what its measurements tell:
+//! Under any other estimator, each path's colour is compared with the C comparators of its channel,
+//! as the oracle does. The number S of good ones among all `N = R C` indices is counted, and the
+//! estimator learns of S only what its measurements show:
 //!
 //! ```text
 //! pixel = scale a~,      a~ an estimate of S/N
 //! ```
 //!
-//! with `scale` the proven bound of a path's colour in that channel. A channel that is proven
-//! black takes no queries.
+//! with `scale` the proven bound of a path's colour in that channel. A channel that is proven black
+//! takes no queries.
 //!
-//! [`Visibility`] says how a path's primary hit is found: by the tracer like all others, or path by
-//! path with an oracle of nearest hits, whose queries are then the picture's.
+//! [`Visibility`] chooses how a path's primary hit is found: by the tracer, like all other hits, or
+//! path by path with an oracle of nearest hits. The queries of that oracle are then the picture's.
 //!
-//! A scene that asks for an `accuracy` is rendered with the parameters that [`crate::plan`] chooses
-//! for it.
+//! A scene with an `accuracy` is rendered with the parameters that [`crate::plan`] chooses for it.
 //!
-//! # What a picture depends on
+//! # Reproducibility
 //!
-//! On the scene, the seed, the estimator and the version of qrt. Not on the number of threads, the
-//! size of tiles, the crop, the instruction set, or on whether it was interrupted: sums are added
-//! in an order that path indices decide, and draws are keyed by pixel and channel.
+//! A picture depends on the scene, the seed, the options that decide a pixel (model, estimator,
+//! colour, noise, visibility) and the version of qrt. It does not depend on the number of threads,
+//! the size of tiles, the crop, the instruction set, or on interruptions: the order of sums follows
+//! from path indices, and draws are keyed by pixel and channel.
 //!
 //! ```
 //! use qrt_core::front::parse;
@@ -93,7 +93,7 @@ use std::path::PathBuf;
 use tiles::Tiles;
 
 named! {
-    /// What traces the paths.
+    /// The machine that traces the paths.
     #[derive(Default)]
     pub enum Model {
         /// The tracer in 64-bit floating point.
@@ -107,53 +107,54 @@ named! {
 }
 
 named! {
-    /// How a pixel gets its colour.
+    /// The method by which a pixel gets its colour.
     #[derive(Default)]
     pub enum Colour {
         /// A run of counting for each channel, as in the paper.
         #[default]
         ThreeRuns = "three-runs",
-        /// One run, of the luminance; the colour comes from the paths that it measures. A third of
-        /// the queries, and colours with the noise of that many paths.
+        /// One run, of the luminance; the colour comes from the paths that it measures. It takes a
+        /// third of the queries, and colours have the noise of that number of paths.
         OneRun = "one-run",
     }
 }
 
-/// How to render. What isn't set follows from the scene.
+/// Options of a render. Options that are not set follow from the scene.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
-    /// Keys the shifts of the digital net and every draw; 0 unless set.
+    /// The key of the shifts of the digital net and of every draw; 0 unless set.
     pub seed: u64,
-    /// x, y, width and height in pixels of the part of the film to render, from its top left
-    /// corner; all of it unless set.
+    /// The part of the film to render: x, y, width and height in pixels, from the film's top left
+    /// corner; the whole film unless set.
     pub crop: Option<[u32; 4]>,
-    /// What traces the paths.
+    /// The model that traces the paths.
     pub model: Model,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
-    /// An estimator of one's own, in place of all others.
+    /// A user-defined estimator, in place of all others.
     pub own_estimator: Option<OwnEstimator<'a>>,
-    /// How pixels get their colours.
+    /// The method by which pixels get their colours.
     pub colour: Colour,
     /// Noise of the device that counts; none unless set.
     pub noise: Noise,
-    /// How primary hits are found.
+    /// The method that finds primary hits.
     pub visibility: Visibility,
-    /// The parameters of a scene that asks for an accuracy, where they are chosen already.
+    /// The plan of a scene with an accuracy; the render makes a plan unless set.
     pub plan: Option<&'a Plan>,
-    /// Who does the work; told of paths.
+    /// The threads that do the work, and the callback for progress, in paths.
     pub workers: Workers<'a>,
-    /// The memory that it may take: what would take more by an estimate is refused.
+    /// The memory budget. A render that would exceed it, by an estimate, is refused.
     pub memory: Memory,
-    /// Lanes to trace on, under [`Model::Real`].
+    /// SIMD lanes for tracing under [`Model::Real`].
     pub simd: Simd,
     /// Width and height of the tiles in pixels; chosen by the number of paths unless set.
     pub tile: Option<[u32; 2]>,
-    /// Where finished tiles are kept until the picture is finished; they are not kept unless set.
-    /// It stays when the picture is finished, too: [`render_keeping`] hands it over, so that it can
-    /// be removed when the picture is safe.
+    /// Path of the checkpoint, which keeps finished tiles until the picture is finished; no
+    /// checkpoint unless set. The render does not remove the file: [`render_keeping`] returns the
+    /// checkpoint, so that the caller can remove it when the picture is safe.
     pub checkpoint: Option<PathBuf>,
-    /// Go on from the checkpoint, if there is one. Otherwise it is replaced, by the first tile.
+    /// If true, continues from the checkpoint if there is one. If false, the first finished tile
+    /// replaces an existing checkpoint.
     pub resume: bool,
     /// Suppresses the note on standard error that qrt is compiled without optimisation. Without it,
     /// the first picture or count of a process that is expected to take ten seconds or more prints
@@ -163,7 +164,7 @@ pub struct Options<'a> {
 }
 
 impl<'a> Options<'a> {
-    /// How the parameters of a scene that asks for an accuracy are chosen for this picture.
+    /// Returns the options with which a scene's parameters are chosen for this picture.
     pub fn planning(&self) -> plan::Options<'a> {
         plan::Options {
             estimator: self.estimator,
@@ -173,80 +174,80 @@ impl<'a> Options<'a> {
     }
 }
 
-/// Which of the known estimators those of one's own are like, in what pictures tell of: it counts the
-/// comparator as a whole, and decides itself when it ends.
+/// The known estimator that stands for user-defined ones in the description of a picture: it counts
+/// the comparator as a whole, and decides itself when to end.
 pub const OWN_LIKE: Estimator = Estimator::MonteCarlo;
 
-/// A picture, and how it came about.
+/// A picture, and a record of how it was made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendered {
-    /// What the scene is called.
+    /// The name of the scene.
     pub scene_name: String,
     /// A hash of the scene and of every file it refers to, as 32 hexadecimal digits.
     pub scene_hash: String,
     /// Width and height of the film in pixels.
     pub film: [u32; 2],
-    /// Linear radiance. With a crop, of the crop's size.
+    /// The picture in linear radiance, of the crop's size.
     pub image: Image,
-    /// Queries of the oracle by pixel, as the image's pixels; all channels together. 0 under
-    /// `exact`, which sums over all paths and asks no oracle. Where primary hits are searched for:
-    /// those of the oracle of nearest hits, all paths together.
+    /// Number of queries of the oracle by pixel, in the order of the image's pixels, for all
+    /// channels together. 0 under `exact`, which sums over all paths and queries no oracle. With a
+    /// search for primary hits: queries of the oracle of nearest hits, for all paths together.
     pub queries: Vec<u64>,
-    /// How wide the interval of a channel is, in radiance, by pixel and channel: it has the estimator's
-    /// confidence. 0 under `exact`, which estimates nothing. Of the luminance, it stands in the first
-    /// place.
+    /// Width of a channel's interval, in radiance, by pixel and channel; the interval has the
+    /// estimator's confidence. 0 under `exact`, which estimates nothing. With colour from one run,
+    /// the width of the luminance is in the first place.
     pub widths: Vec<[f64; 3]>,
-    /// Strata of the comparator that were counted one by one, by pixel and channel: 1 where the
-    /// whole was counted at once, 0 where nothing is counted. Of the luminance, it stands in the
-    /// first place.
+    /// Number of strata of the comparator that were counted one by one, by pixel and channel: 1 if
+    /// the whole comparator was counted at once, 0 if nothing was counted. With colour from one
+    /// run, the number of the luminance is in the first place.
     pub strata: Vec<[u8; 3]>,
-    /// S, the good indices of every pixel's channels, as the image's pixels; none of the real
-    /// model, which compares with no comparators.
+    /// S, the number of good indices of every pixel's channels, in the order of the image's pixels;
+    /// `None` for the real model, which has no comparators.
     pub good: Option<Vec<[u64; 3]>>,
-    /// What traced the paths.
+    /// The model that traced the paths.
     pub model: Model,
-    /// How primary hits were found.
+    /// The method that found primary hits.
     pub visibility: Visibility,
-    /// What was searched for them, if they were not traced; none for a scene without faces, whose
-    /// paths meet nothing.
+    /// The size and cost of the search for primary hits, if there was one; `None` for a scene
+    /// without faces, where all paths meet nothing.
     pub searched: Option<Searched>,
     /// x, y, width and height on the film, in pixels.
     pub crop: [u32; 4],
-    /// What estimated the amplitudes of its pixels, unless it is one's own; [`OWN_LIKE`] then.
+    /// The estimator of the pixels' amplitudes; [`OWN_LIKE`] for a user-defined one.
     pub estimator: Estimator,
-    /// The name of the estimator of one's own, if that did.
+    /// The name of the user-defined estimator, if the picture was made with one.
     pub own_estimator: Option<String>,
-    /// How its pixels got their colours.
+    /// The method by which pixels got their colours.
     pub colour: Colour,
     /// Noise of the device that counted.
     pub noise: Noise,
-    /// What keyed its shifts and draws.
+    /// The key of the shifts and draws.
     pub seed: u64,
-    /// The parameters: the scene's, or those that its accuracy takes.
+    /// The parameters: the scene's own, or those chosen for its accuracy.
     pub parameters: Parameters,
-    /// How these were chosen, if they were.
+    /// The figures of the plan that chose the parameters, if there was one.
     pub plan: Option<Figures>,
     /// The proven bounds on a path's colour, by pixel.
     pub scales: Scales,
-    /// N, the indices of a pixel's channel: paths times comparators.
+    /// N, the number of indices of a pixel's channel: paths times comparators.
     pub ids: u64,
-    /// Paths of the picture.
+    /// Number of paths of the picture.
     pub paths: u64,
-    /// Of these, those that a checkpoint had.
+    /// Number of paths that a checkpoint had.
     pub resumed_paths: u64,
     /// Wall time of tracing and counting, in seconds.
     pub seconds: f64,
-    /// How many threads worked.
+    /// Number of threads.
     pub threads: usize,
 }
 
 impl Rendered {
-    /// Queries of the oracle for the whole picture.
+    /// Number of queries of the oracle for the whole picture.
     pub fn total_queries(&self) -> u128 {
         self.queries.iter().map(|&q| u128::from(q)).sum()
     }
 
-    /// How many channels of pixels were counted in how many strata.
+    /// The number of pixels' channels for each number of strata.
     pub fn strata_used(&self) -> BTreeMap<u8, u64> {
         let mut used = BTreeMap::new();
         for &strata in self.strata.iter().flatten().filter(|&&strata| strata > 0) {
@@ -267,7 +268,7 @@ impl Rendered {
         sum
     }
 
-    /// Every channel of every pixel as it is written to a CSV file; x and y are on the film.
+    /// Iterates over the channels of all pixels, as written to a CSV file; x and y are on the film.
     pub fn counts(&self) -> impl Iterator<Item = Count> {
         tiles::pixels(self.crop)
             .zip(&self.image.pixels)
@@ -289,13 +290,14 @@ impl Rendered {
 /// Renders a scene.
 ///
 /// # Errors
-/// See [`RenderError`]. An interruption is one: what is finished then is in the checkpoint.
+/// See [`RenderError`]. On an interruption, the checkpoint has the finished tiles.
 pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
     render_keeping(scene, options).map(without_checkpoint)
 }
 
-/// As [`render`], and hands over the checkpoint, open and locked, if there is one: nobody else can
-/// begin with it before the picture is safe, and it is removed ([`Checkpoint::remove`]) or dropped.
+/// As [`render`], but also returns the checkpoint, open and locked, if there is one. No other
+/// process can use it until the caller removes ([`Checkpoint::remove`]) or drops it, when the
+/// picture is safe.
 ///
 /// # Errors
 /// As [`render`].
@@ -307,8 +309,8 @@ pub fn render_keeping(
     rendered.map(|(rendered, (), checkpoint)| (rendered, checkpoint))
 }
 
-/// The pixels of a portion, all others black, and what is `told` of what was asked; of no portion, the
-/// whole picture.
+/// Renders the pixels of a portion, with all others black; without a portion, the whole picture.
+/// Also returns the result of `told`, which gets the request with the chosen parameters.
 fn render_portion<T>(
     scene: &ValidScene,
     options: &Options<'_>,
@@ -354,13 +356,13 @@ fn render_portion<T>(
     Ok((rendered, told, checkpoint))
 }
 
-/// Renders a scene of `qrt!` by the circuit that was compiled with it: the same picture as
-/// [`render`]'s, without building its circuit again, and under [`Model::Fixed`] by native code: see
-/// [`OracleMachine::native`].
+/// Renders a scene of `qrt!` with the circuit that was compiled with it. The picture is the same as
+/// [`render`]'s, but the circuit is not built again. Under [`Model::Fixed`] it runs as native code:
+/// see [`OracleMachine::native`].
 ///
 /// # Errors
-/// As [`render`]; and a [`CompiledError`] where that circuit does not do what is asked, or is not
-/// run at all: under [`Model::Real`], which is the default.
+/// As [`render`]; and a [`CompiledError`] if that circuit does not support the request, or under
+/// [`Model::Real`], the default, which does not run it.
 pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
     let scene = C::scene();
     if scene.scene().accuracy.is_some() {
@@ -386,13 +388,13 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
 
 fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) -> Rendered {
     if let Some(checkpoint) = checkpoint {
-        // The picture is there; what becomes of its parts is no reason to lose it.
+        // The picture is complete, and an error of its checkpoint is no reason to lose it.
         let _ = checkpoint.close();
     }
     rendered
 }
 
-/// Renders the light of the paths on which a predicate holds.
+/// Renders the light of only those paths that satisfy a predicate.
 pub(crate) fn render_predicate(
     predicate: &Predicate,
     options: &Options<'_>,
@@ -406,20 +408,20 @@ pub(crate) fn render_predicate(
     Job::new(request, classes)?.run().map(without_checkpoint)
 }
 
-/// A picture that can be rendered: its parameters are chosen, and its crop lies on the film.
+/// A valid request for a picture: its parameters are chosen, and its crop is on the film.
 struct Request<'a> {
     scene: &'a ValidScene,
     options: &'a Options<'a>,
     /// x, y, width and height on the film, in pixels.
     crop: [u32; 4],
     estimator: Estimator,
-    /// Pixels of the picture.
+    /// Number of pixels of the picture.
     area: u64,
-    /// R, the paths of a pixel.
+    /// R, the number of paths of a pixel.
     paths: u64,
-    /// Which paths count, if not all do.
+    /// The predicate that selects paths; `None` for all paths.
     predicate: Option<&'a Predicate>,
-    /// Which of its pixels are rendered, if not all are.
+    /// The portion of the pixels to render; `None` for all.
     portion: Option<Portion>,
 }
 
@@ -449,20 +451,21 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// How the picture is cut into tiles. Portions are cut alike, whoever renders them.
+    /// Cuts the picture into tiles. The tiles of portions do not depend on [`Options::tile`], so
+    /// that all processes cut alike.
     fn tiles(&self) -> Tiles {
         let size = self.options.tile.filter(|_| self.portion.is_none());
         let portion = self.portion.unwrap_or(Portion::WHOLE);
         Tiles::new(self.crop, size, self.paths, portion)
     }
 
-    /// How the pixels get their colours whose paths `source` traces.
+    /// Creates the pixels' counter for the paths that `source` traces.
     fn pixels(&self, source: Source) -> Result<Pixels, RenderError> {
         Pixels::new(source, self.scene.scene(), self.estimator, self.options)
     }
 
-    /// What traces the paths of the pixels of a class, and what is searched for their primary hits,
-    /// if they are searched for.
+    /// Creates the machine that traces the paths of a class of pixels, and describes the search for
+    /// their primary hits, if there is one.
     fn source(&self, class: PixelClass) -> Result<(Source, Option<Searched>), RenderError> {
         let Options { seed, model, .. } = *self.options;
         if self.options.visibility != Visibility::Classical {
@@ -484,7 +487,7 @@ impl<'a> Request<'a> {
             None if one_run => Oracle::rgb_and_luminance(self.scene, of_class)?,
             None => Oracle::rgb(self.scene, of_class)?,
         };
-        // The paths that one run measures give it the colours.
+        // With one run, the pixel's colour comes from the colours of measured paths.
         let machine = if model == Model::Gates {
             OracleMachine::gates(oracle.into(), seed, one_run)?
         } else {
@@ -494,7 +497,7 @@ impl<'a> Request<'a> {
     }
 }
 
-/// The part of the film that is rendered: x, y, width and height.
+/// Returns the part of the film to render: x, y, width and height.
 pub(crate) fn crop_of(scene: &ValidScene, options: &Options<'_>) -> Result<[u32; 4], RenderError> {
     let film = [scene.scene().film.width, scene.scene().film.height];
     let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);

@@ -1,20 +1,20 @@
 //! Colour from one run of counting instead of three.
 //!
-//! The luminance alone is counted. A good index that an estimator measures is a path and a
-//! comparator below its luminance, so that paths are measured with probabilities proportional to
-//! their luminance; each is evaluated classically, without a query. The pixel is the luminance
-//! times the mean of these paths' colours over their luminances:
+//! Only the luminance is counted. A good index that an estimator measures is a path and a
+//! comparator below the path's luminance. So paths are measured with probabilities proportional to
+//! their luminance. Each measured path is evaluated classically, without a query. The pixel is the
+//! luminance times the mean, over these paths, of colour divided by luminance:
 //!
 //! ```text
 //! E[rgb_i / Y_i] = sum_i (Y_i / sum_j Y_j) (rgb_i / Y_i) = mean(rgb) / mean(Y).
 //! ```
 //!
-//! Where strata of the comparator are counted one by one, the same holds of each, for the part of
-//! the luminance that lies within its thresholds; the pixel is the sum of all.
+//! If strata of the comparator are counted one by one, the same holds for each stratum, with the
+//! part of the luminance within its thresholds. The pixel is the sum over strata.
 //!
-//! Its luminance is as good as counting makes it. Its colour has the error of so many samples as
-//! good indices were measured, which is none where all paths have one colour. Where no good index was
-//! measured, the pixel is grey: [`Options::expected_grey`].
+//! The pixel's luminance has the error of counting. Its colour has the error of a random sample
+//! whose size is the number of measured good indices; it is 0 if all paths have one colour. If no
+//! good index was measured, the pixel is grey: [`Options::expected_grey`].
 
 use super::pixel::{Pixels, Source, Stop, ended, go_on};
 use super::{Colour, Options, RenderError};
@@ -29,21 +29,21 @@ use qrt_core::scene::Scene;
 use qrt_core::valid::ValidScene;
 use std::ops::Range;
 
-/// Paths whose counts are kept as one sum, at least.
+/// The smallest number of paths whose counts are kept as one sum.
 const SEGMENT: u64 = 256;
-/// Sums that are kept, at most.
+/// The largest number of sums that are kept.
 const SEGMENTS: u64 = 1 << 12;
-/// Measured indices that are looked at, at most; a colour is then known to a part in a hundred of
-/// its paths' spread.
+/// The largest number of measured indices that are evaluated. The error of the colour is then a
+/// hundredth of the spread of its paths' colours.
 const MEASURED: u64 = 1 << 13;
 
 impl Options<'_> {
-    /// The fraction of the lit pixels of `traced`, whose parameters are chosen, that are expected to have no
-    /// measured path, and so to be grey; 0 where each channel is counted, and where the estimator measures
-    /// until it knows enough.
+    /// The expected fraction of the lit pixels of `traced`, whose parameters are chosen, that have
+    /// no measured path and are therefore grey. 0 if each channel is counted, or if the estimator
+    /// measures until it knows enough.
     ///
     /// # Errors
-    /// Settings out of range.
+    /// If a setting is out of range.
     pub fn expected_grey(&self, traced: &ValidScene) -> Result<f64, RenderError> {
         if self.colour == Colour::ThreeRuns {
             return Ok(0.0);
@@ -55,17 +55,17 @@ impl Options<'_> {
     }
 }
 
-/// How the luminance is counted.
+/// The settings for counting the luminance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OneRun {
     comparators: Comparators,
     comparator_bits: u32,
     segment: u64,
-    /// Whether strata may be counted one by one.
+    /// True if strata may be counted one by one.
     by_strata: bool,
 }
 
-/// Where the good indices of a stratum are: by segment of the pixel's paths.
+/// Number of good indices of a stratum in each segment of the pixel's paths.
 struct GoodPaths<'a> {
     stratum: Stratum,
     good: &'a [u64],
@@ -73,11 +73,11 @@ struct GoodPaths<'a> {
     workers: &'a Workers<'a>,
 }
 
-/// What the paths of a pixel add up to: by segment, good indices of the luminance.
+/// Number of good indices of the luminance in each segment of a pixel's paths.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Segments {
     sums: Vec<u64>,
-    /// The same by octave, where strata may be counted one by one.
+    /// Good indices of each segment by octave, if strata may be counted one by one.
     octaves: Vec<Octaves>,
     paths: u64,
 }
@@ -100,7 +100,7 @@ impl Segments {
         self.paths += 1;
     }
 
-    /// What it is, to go on from.
+    /// Encodes the segments, so that they can be continued later.
     pub(super) fn words(&self, words: &mut Vec<u64>) {
         words.extend([self.paths, self.sums.len() as u64]);
         words.extend(&self.sums);
@@ -109,13 +109,13 @@ impl Segments {
         }
     }
 
-    /// What such words are of.
+    /// Decodes segments from words; `None` if the words are not those of segments.
     pub(super) fn of_words(
         words: &mut impl ExactSizeIterator<Item = u64>,
         one_run: Option<&OneRun>,
     ) -> Option<Self> {
         let (paths, length) = (words.next()?, words.next()?);
-        // More than there are words are not made room for.
+        // A length beyond the number of words is rejected before memory is allocated for it.
         let length = usize::try_from(length).ok().filter(|n| *n <= words.len())?;
         let sums = (0..length).map(|_| words.next()).collect::<Option<_>>()?;
         let mut octaves = Vec::new();
@@ -132,7 +132,7 @@ impl Segments {
         })
     }
 
-    /// By segment, the good indices within a stratum.
+    /// Returns the number of good indices within a stratum, by segment.
     fn within(&self, stratum: Stratum, whole: Stratum) -> Vec<u64> {
         if stratum == whole {
             return self.sums.clone();
@@ -141,7 +141,7 @@ impl Segments {
         self.octaves.iter().map(good).collect()
     }
 
-    /// Adds the paths that follow. To be used on segments' boundaries.
+    /// Adds the paths that follow. Segments may be appended only at segment boundaries.
     pub(super) fn append(&mut self, later: &Self) {
         self.sums.extend(&later.sums);
         self.octaves.extend_from_slice(&later.octaves);
@@ -164,7 +164,7 @@ impl OneRun {
         })
     }
 
-    /// Adds paths with these colours.
+    /// Adds paths by their colours.
     pub(super) fn take_colours(&self, segments: &mut Segments, colours: &[&[f64]; 3]) {
         let [r, g, b] = colours;
         for ((r, g), b) in r.iter().zip(*g).zip(*b) {
@@ -172,14 +172,14 @@ impl OneRun {
         }
     }
 
-    /// Adds paths with these counts.
+    /// Adds paths by their counts.
     pub(super) fn take_counts(&self, segments: &mut Segments, counts: &[i64]) {
         for good in counts {
             segments.add(good.cast_unsigned(), self);
         }
     }
 
-    /// The luminance for an estimated amplitude.
+    /// Converts an estimated amplitude to luminance.
     pub(super) fn pixel_of_amplitude(&self, amplitude: f64) -> f64 {
         self.comparators.pixel_of_amplitude(amplitude)
     }
@@ -188,7 +188,7 @@ impl OneRun {
         u64::from(self.comparators.good(luminance(colour)))
     }
 
-    /// The colour of a pixel, and what was estimated of its luminance.
+    /// Returns the colour of a pixel, and the estimate of its luminance.
     pub(super) fn finish(
         &self,
         pixels: &Pixels,
@@ -230,7 +230,7 @@ impl OneRun {
             };
             self.paths_of(pixels, [x, y], &places, &ids, |colour| {
                 let luminance = luminance(&colour);
-                // A colour may round to black where its luminance does not.
+                // A colour may round to black while its luminance does not.
                 if luminance > 0.0 {
                     for (sum, part) in colours.iter_mut().zip(colour) {
                         *sum += part / luminance;
@@ -239,7 +239,7 @@ impl OneRun {
                 }
             })?;
             if paths > 0.0 {
-                // Of the whole alone, the sum over paths as it is.
+                // A whole comparator needs no weight relative to other strata.
                 let weight = if part == whole {
                     1.0
                 } else {
@@ -251,7 +251,7 @@ impl OneRun {
                 found += weight * paths;
             }
         }
-        // Where no path is known, nothing is known of its colour: grey.
+        // Without a measured path the colour is unknown, so the pixel is grey.
         let colour = sum.map(|sum| {
             if found > 0.0 {
                 value * (sum / found)
@@ -282,7 +282,7 @@ impl OneRun {
         Device::of_octaves(&all, noise, stream)
     }
 
-    /// Hands over the colours of the paths of these good indices, which are in order.
+    /// Calls `colour` with the colours of the paths of the good indices `ids`, which are sorted.
     fn paths_of(
         &self,
         pixels: &Pixels,
@@ -316,7 +316,8 @@ impl OneRun {
         Ok(())
     }
 
-    /// Traces paths again: by path, the good indices of its luminance and its colour.
+    /// Traces paths again, and calls `path` with each path's good indices of luminance and its
+    /// colour.
     fn trace(
         &self,
         pixels: &Pixels,

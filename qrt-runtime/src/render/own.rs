@@ -1,22 +1,22 @@
-//! Pictures by an estimator of one's own.
+//! Pictures with a user-defined estimator.
 
 use super::{OWN_LIKE, Options, RenderError};
 use crate::estimators::{AmplitudeEstimator, EstimatorError, Settings, estimator};
 use qrt_core::scene::{Estimator, Scene};
 use std::fmt;
 
-/// The longest name of an estimator of one's own, in bytes.
+/// The longest name of a user-defined estimator, in bytes.
 const MOST_BYTES: usize = 64;
 
-/// What stands before an own estimator's name in pictures and checkpoints.
+/// The prefix of a user-defined estimator's name in pictures and checkpoints.
 pub(super) const PREFIX: &str = "own:";
 
-/// An estimator of channels: one that knows the channel's settings.
+/// An estimator of a channel, with the channel's settings.
 pub type BoxedEstimator = Box<dyn AmplitudeEstimator + Send + Sync>;
 
 type Make<'a> = dyn Fn(&Settings) -> Result<BoxedEstimator, EstimatorError> + Sync + 'a;
 
-/// An estimator of one's own for [`super::render`]: set [`Options::own_estimator`].
+/// A user-defined estimator for [`super::render`]: set [`Options::own_estimator`].
 ///
 /// ```
 /// use qrt_core::front::parse;
@@ -63,17 +63,17 @@ impl fmt::Debug for OwnEstimator<'_> {
 }
 
 impl<'a> OwnEstimator<'a> {
-    /// An estimator of that name: 1 to 64 letters, digits, `_`, `-` or `.` of ASCII. `make` makes it
-    /// for a channel of which these things are wanted: the scene's counting block, with its error in
-    /// units of the channel's amplitude.
+    /// Creates a user-defined estimator. Its name has 1 to 64 ASCII letters, digits, `_`, `-` or
+    /// `.`. `make` creates the estimator of a channel from the channel's settings: the scene's
+    /// counting block, with its error in units of the channel's amplitude.
     ///
-    /// Pictures and checkpoints say the name, and a picture is gone on with by an estimator of the
-    /// same name alone: give it another one when you change it.
+    /// Pictures and checkpoints store the name, and a picture can be resumed only with an estimator
+    /// of the same name. Change the name when you change the estimator.
     pub fn new(name: &'a str, make: &'a Make<'a>) -> Self {
         Self { name, make }
     }
 
-    /// Its name.
+    /// Returns the name of the estimator.
     pub fn name(&self) -> &'a str {
         self.name
     }
@@ -89,10 +89,11 @@ impl<'a> OwnEstimator<'a> {
 }
 
 impl Options<'_> {
-    /// The estimator that counts paths in superposition; [`OWN_LIKE`] where it is one's own.
+    /// Returns the estimator that counts paths in superposition; [`OWN_LIKE`] for a user-defined
+    /// one.
     ///
     /// # Errors
-    /// An own estimator's name that pictures cannot tell.
+    /// If the name of the user-defined estimator is not valid.
     pub(crate) fn counted_by(&self, scene: &Scene) -> Result<Estimator, RenderError> {
         match &self.own_estimator {
             Some(own) => own.check().map(|()| OWN_LIKE),
@@ -100,7 +101,7 @@ impl Options<'_> {
         }
     }
 
-    /// The estimator of a channel: one's own, or the known one.
+    /// Creates the estimator of a channel: the user-defined one if there is one, otherwise `known`.
     pub(crate) fn estimator_of(
         &self,
         known: Estimator,
@@ -112,7 +113,7 @@ impl Options<'_> {
         }
     }
 
-    /// How the estimator is called in pictures and checkpoints.
+    /// Returns the name of the estimator in pictures and checkpoints.
     pub(super) fn estimator_name(&self, known: Estimator) -> String {
         match &self.own_estimator {
             Some(own) => format!("{PREFIX}{}", own.name),

@@ -1,4 +1,4 @@
-//! Pixels of very many paths, which are kept before they are finished.
+//! Parts of pixels of very many paths, which are kept before the pixels are finished.
 
 use super::RenderError;
 use super::film::Film;
@@ -10,11 +10,11 @@ use std::time::Instant;
 /// Parts of pixels, by pixel and number.
 pub(super) type Kept = BTreeMap<([u32; 2], u64), Part>;
 
-/// What a checkpoint has of the parts of unfinished pixels, and where they are kept from now on.
+/// The checkpoint's parts of unfinished pixels, and the film that keeps new parts.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Parts<'a> {
     pub(super) before: Option<&'a Kept>,
-    /// Of a picture without a checkpoint, none.
+    /// The film, or `None` for a picture without a checkpoint.
     pub(super) film: Option<&'a Mutex<Film>>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Keeper<'a> {
 }
 
 impl<'a> Parts<'a> {
-    /// How many paths of a part were traced before, and what they add up to.
+    /// Returns the number of a part's paths that were traced before, and their totals.
     pub(super) fn before(&self, pixel: [u32; 2], number: u64) -> Option<(u64, &'a [u64])> {
         let part = self.before?.get(&(pixel, number))?;
         Some((part.paths, &part.totals))
@@ -40,12 +40,12 @@ impl<'a> Parts<'a> {
 }
 
 impl Keeper<'_> {
-    /// Whether as much would be lost as may be.
+    /// Returns whether [`AT_STAKE`] has passed since parts were last kept.
     pub(super) fn is_due(&self) -> bool {
         self.kept.elapsed() >= AT_STAKE
     }
 
-    /// Keeps these parts, or what is traced of them.
+    /// Keeps `parts`; a part may have only the paths traced so far.
     pub(super) fn keep(
         &mut self,
         parts: impl IntoIterator<Item = Part>,

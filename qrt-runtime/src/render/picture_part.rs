@@ -1,10 +1,11 @@
-//! Pictures rendered in parts, by several processes or machines, and put together again.
+//! Pictures rendered in parts, by several processes or machines, and merged.
 //!
-//! A part is a portion's pixels, with everything that a picture's files tell: colours, counts, queries
-//! and strata by pixel, bounds, parameters and plan. Its bytes are those of a checkpoint (see
-//! [`crate::checkpoint`]) with one more record, the last, so that what was cut short or changed on the
-//! way is noticed: header and records have a CRC-32 each. [`Merge`] takes the parts in any order; what it
-//! makes of them is what [`super::render`] would have made, to the last bit.
+//! A part has a portion's pixels and everything that a picture's files record: colours, counts,
+//! queries and strata by pixel, bounds, parameters and plan. Its file has the format of a
+//! checkpoint (see [`crate::checkpoint`]) with one further record at the end, so that a truncated
+//! file is noticed. The CRC-32 of the header and of each record shows changed bytes. [`Merge`]
+//! takes the parts in any order and returns the picture that [`super::render`] would have made, to
+//! the last bit.
 
 use super::film::Film;
 use super::job::{PORTION, header};
@@ -26,56 +27,56 @@ use qrt_core::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// As many missing parts are named.
+/// The largest number of missing parts that an error lists.
 const NAMED: usize = 16;
 
-/// Why parts don't make a picture. Each names its part as [`Merge::add`] was told.
+/// An error of merging parts. `name` is the name of the part that was passed to [`Merge::add`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)]
 pub enum MergeError {
-    /// There is nothing to put together.
+    /// No part was added.
     #[error("there are no parts to merge")]
     Nothing,
-    /// The file is no part of a picture.
+    /// The file is not a part of a picture.
     #[error("`{name}` is no part of a picture")]
     Foreign { name: String },
-    /// Written by another version of the format.
+    /// The file has another version of the format.
     #[error("`{name}` is a part of format {version}, which this qrt does not read")]
     Version { name: String, version: u32 },
-    /// It fails a sum, or what it says of itself can't be.
+    /// The file does not match a CRC-32, or its contents contradict each other.
     #[error("`{name}` is damaged: render this part again")]
     Damaged { name: String },
-    /// What an interrupted render has left, or the beginning of a part.
+    /// The file is left by an interrupted render, or is the beginning of a part.
     #[error(
         "`{name}`, part {portion}, is not whole: it was cut short, or its render was interrupted; \
          go on with that by `--resume`, or render the part again"
     )]
     Unfinished { name: String, portion: Portion },
-    /// The checkpoint of a picture that is rendered by one process.
+    /// The file is the checkpoint of a picture that one process renders.
     #[error("`{name}` is the checkpoint of a whole picture, and no part of one")]
     Whole { name: String },
-    /// Parts of different pictures.
+    /// The parts are of different pictures.
     #[error("`{name}` and `{first}` are parts of different pictures{}", listed(.differences))]
     Differs {
         name: String,
         first: String,
-        /// In what: `found` is of `name`, `asked` is of `first`.
+        /// The differences: `found` is the value in `name`, `asked` that in `first`.
         differences: Vec<Difference>,
     },
-    /// Two parts with the same pixels.
+    /// Two parts have the same pixels.
     #[error("`{name}` and `{first}` are both part {portion}: leave one of them out")]
     Doubled {
         name: String,
         first: String,
         portion: Portion,
     },
-    /// Some parts are not there.
+    /// Some parts are missing.
     #[error("{number} of {count} parts {} missing: {}", are(*.number), named(.first, *.number, *.count))]
     Missing {
-        /// The numbers of the first of them, from 0.
+        /// The numbers of the first missing parts, counted from 0.
         first: Vec<u32>,
-        /// How many are missing.
+        /// Number of missing parts.
         number: u32,
         count: u32,
     },
@@ -107,25 +108,25 @@ fn named(first: &[u32], number: u32, count: u32) -> String {
     names.join(", ")
 }
 
-/// The pixels of a portion of a picture. There is no image of it: pixels that were not rendered would be
-/// black there.
+/// The pixels of a portion of a picture. There is no image of a part: pixels of other portions
+/// would be black in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PicturePart {
     portion: Portion,
     header: Header,
-    /// The scene that was traced without what it consists of, as YAML.
+    /// The traced scene without its geometry and materials, as YAML.
     written: String,
-    /// All pixels of other portions are black.
+    /// The portion's pixels; all pixels of other portions are black.
     rendered: Rendered,
 }
 
-/// Renders a portion of a picture; as [`super::render_keeping`], it hands over the checkpoint.
+/// Renders a portion of a picture. As [`super::render_keeping`], it returns the checkpoint.
 ///
-/// A scene that asks for an accuracy is planned for by each part anew, to the same plan: it depends on
-/// no seed and no portion. [`Options::plan`] hands over one that is there already.
+/// For a scene with an accuracy, each part makes the same plan again: a plan depends on no seed and
+/// no portion. [`Options::plan`] passes an existing plan.
 ///
 /// # Errors
-/// As [`super::render`]; and more portions than the picture has pixels.
+/// As [`super::render`]; and if there are more portions than pixels of the picture.
 ///
 /// ```
 /// use qrt_core::front::parse;
@@ -172,22 +173,22 @@ fn written(scene: &ValidScene) -> String {
 }
 
 impl PicturePart {
-    /// Which portion of its picture it is.
+    /// Returns the portion of the picture that this part has.
     pub fn portion(&self) -> Portion {
         self.portion
     }
 
-    /// Paths of its pixels.
+    /// Returns the number of paths of its pixels.
     pub fn paths(&self) -> u64 {
         self.rendered.paths
     }
 
-    /// Pixels that it has.
+    /// Returns the number of its pixels.
     pub fn pixels(&self) -> u64 {
         self.tiles().area()
     }
 
-    /// Wall time of tracing and counting, in seconds.
+    /// Returns the wall time of tracing and counting, in seconds.
     pub fn seconds(&self) -> f64 {
         self.rendered.seconds
     }
@@ -196,7 +197,7 @@ impl PicturePart {
         tiles(&self.rendered, self.portion)
     }
 
-    /// The bytes of a file of it.
+    /// Encodes the part as the bytes of a file.
     pub fn encode(&self) -> Vec<u8> {
         let Rendered {
             image,
@@ -232,34 +233,35 @@ impl PicturePart {
     }
 }
 
-/// How every portion of a picture is cut.
+/// Cuts a portion of a picture into tiles, the same in every process.
 fn tiles(rendered: &Rendered, portion: Portion) -> Tiles {
     let paths = 1 << rendered.parameters.sampling.path_bits;
     Tiles::new(rendered.crop, None, paths, portion)
 }
 
-/// A part that was read.
+/// A decoded part.
 struct Read {
     name: String,
     tiles: Vec<Tile>,
-    /// Without pixels.
+    /// The picture's properties, without pixels.
     rendered: Rendered,
 }
 
-/// Puts the parts of a picture together.
+/// Merges the parts of a picture.
 #[derive(Default)]
 pub struct Merge {
-    /// The first part's name, and its header without its portion.
+    /// The first part's name, and its header without the portion.
     first: Option<(String, Header)>,
     count: u32,
     parts: BTreeMap<u32, Read>,
 }
 
 impl Merge {
-    /// Takes in the bytes of a part; `name` is what errors call it.
+    /// Adds the bytes of a part. Errors call the part `name`.
     ///
     /// # Errors
-    /// If they are no whole part, or it is of another picture than those before, or one of them again.
+    /// If the bytes are not a whole part, the part is of another picture than the earlier ones, or
+    /// it was added before.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), MergeError> {
         let name = name.to_owned();
         let mut rest = bytes;
@@ -301,7 +303,8 @@ impl Merge {
         Ok(())
     }
 
-    /// The picture. Its time is that of all parts together, its number of threads the greatest of theirs.
+    /// Returns the picture. Its time is the sum over all parts, and its number of threads the
+    /// largest.
     ///
     /// # Errors
     /// If parts are missing.
@@ -319,7 +322,8 @@ impl Merge {
         let mut parts = self.parts.into_values();
         let first = parts.next().ok_or(MergeError::Nothing)?;
         let mut whole = first.rendered;
-        // All pixels are there, so that a film of this size is not more than was read.
+        // All pixels have been read, so a film of this size takes no more memory than the parts
+        // did.
         let [_, _, width, height] = whole.crop;
         let pixels = u64::from(width) * u64::from(height);
         let memory = |_| MergeError::Memory { pixels };
@@ -348,12 +352,13 @@ impl Merge {
     }
 }
 
-/// Whether S is told of channels.
+/// Returns whether a picture has the numbers S of good indices of its channels.
 pub(super) fn counts_good(model: Model, colour: Colour) -> bool {
     model != Model::Real && colour == Colour::ThreeRuns
 }
 
-/// Takes the header off a part: which portion it is of, and what it shares with the other parts.
+/// Decodes the header of a part: its portion, and the properties that it shares with the other
+/// parts.
 fn of_header(name: &str, rest: &mut &[u8]) -> Result<(Portion, Header), MergeError> {
     let name = name.to_owned();
     let header = match Header::decode(rest, Path::new(&name)) {
@@ -373,7 +378,7 @@ fn of_header(name: &str, rest: &mut &[u8]) -> Result<(Portion, Header), MergeErr
 }
 
 impl Read {
-    /// Of the records behind the header.
+    /// Decodes the records behind the header.
     fn of(
         name: String,
         portion: Portion,
@@ -386,7 +391,8 @@ impl Read {
             let ended = rest.is_empty();
             match Record::decode(&mut rest, header.crop) {
                 Some(Record::Tile(tile)) => found.push(tile),
-                // Of an unfinished pixel.
+                // A part record has totals of an unfinished pixel, which the finished tile
+                // replaces.
                 Some(Record::Part(_)) => {}
                 Some(Record::Ending(ending)) if rest.is_empty() => break ending,
                 None if ended => return Err(MergeError::Unfinished { name, portion }),
@@ -414,7 +420,7 @@ impl Read {
     }
 }
 
-/// What is known of a picture beside its pixels, as words; [`rendered`] reads them.
+/// Encodes the properties of a picture other than its pixels; [`rendered`] decodes them.
 fn words(rendered: &Rendered) -> Vec<u64> {
     let mut words = vec![
         place(&Model::ALL, &rendered.model),
@@ -519,12 +525,12 @@ fn put_figures(words: &mut Vec<u64>, figures: &Figures) {
     maybe(cost.map(|cost| vec![cost.qubits, cost.toffoli]));
 }
 
-/// The number of a value among all.
+/// Returns the place of a value in a list of all values.
 fn place<T: PartialEq>(all: &[T], value: &T) -> u64 {
     all.iter().take_while(|other| *other != value).count() as u64
 }
 
-/// Words, one after another.
+/// A reader of words, one after another.
 struct Words<'a>(std::slice::Iter<'a, u64>);
 
 impl Words<'_> {
@@ -548,13 +554,13 @@ impl Words<'_> {
         Some(floats)
     }
 
-    /// The value of this number among all.
+    /// Returns the value with the place that the next word holds.
     fn of<T: Copy>(&mut self, all: &[T]) -> Option<T> {
         let number: usize = self.word()?.try_into().ok()?;
         all.get(number).copied()
     }
 
-    /// What may not be there; none where the words are no such thing.
+    /// Reads an optional value; `None` if the words are not valid.
     #[allow(clippy::option_option)]
     fn maybe<T>(&mut self, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Option<T>> {
         match self.word()? {
@@ -604,7 +610,8 @@ impl Words<'_> {
     }
 }
 
-/// A picture without its pixels, of what a part says of it.
+/// Decodes the properties of a picture, without its pixels, from the header and the ending of a
+/// part.
 fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
     let (scene_hash, written) = ending.text.split_once('\n')?;
     let scene = Scene::from_yaml(written, "the part").ok()?;

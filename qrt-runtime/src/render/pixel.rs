@@ -1,4 +1,4 @@
-//! From the paths of a pixel to its colour.
+//! Computes a pixel's colour from its paths.
 
 use super::one_run::OneRun;
 use super::parts::Parts;
@@ -17,38 +17,38 @@ use qrt_core::scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths that are traced in floating point without looking up.
+/// Number of paths that are traced in floating point between two checks for cancellation.
 const RUN: u64 = 1 << 16;
-/// Above this many, the paths of a pixel are cut into parts for several threads.
+/// With more paths than this, the paths of a pixel are cut into parts for several threads.
 const SPLIT: u64 = 1 << 18;
-/// Parts of a pixel, at most.
+/// The largest number of parts of a pixel.
 const PARTS: u64 = 1 << 12;
 
 /// A finished pixel: its colour, its counts and its queries.
 pub(super) struct Pixel {
     pub(super) colour: [f64; 3],
     pub(super) queries: u64,
-    /// S; 0 where none are counted.
+    /// S, the number of good indices; 0 if none are counted.
     pub(super) good: [u64; 3],
-    /// Widths of intervals, in radiance; 0 where nothing is counted.
+    /// Widths of intervals, in radiance; 0 if nothing is counted.
     pub(super) widths: [f64; 3],
-    /// Strata that were counted one by one; 0 where nothing is counted.
+    /// Number of strata that were counted one by one; 0 if nothing is counted.
     pub(super) strata: [u8; 3],
 }
 
 impl Pixel {
-    /// Takes in what was found of a channel.
+    /// Adds the estimate of a channel.
     fn take(&mut self, channel: usize, estimate: &Estimate, radiance: impl Fn(f64) -> f64) {
-        // At most 3 * 2^40 * 10^6, below 2^62.
+        // The sum is at most 3 * 2^40 * 10^6, below 2^62.
         self.queries += estimate.queries;
-        // At most 31.
+        // There are at most 31 strata.
         self.strata[channel] = estimate.strata as u8;
         let (low, high) = estimate.interval;
         self.widths[channel] = radiance(high) - radiance(low);
     }
 }
 
-/// Why the work on a pixel or a tile ended early.
+/// The reason why the work on a pixel or a tile ended early.
 pub(super) enum Stop {
     Cancelled,
     Failed(RenderError),
@@ -60,20 +60,21 @@ impl<E: Into<RenderError>> From<E> for Stop {
     }
 }
 
-/// What traces the paths.
+/// The machine that traces the paths.
 pub(super) enum Source {
-    /// Colours, in radiance.
+    /// A machine that returns colours, in radiance.
     Real(Box<Real>),
-    /// Counts of thresholds that colours exceed.
+    /// A machine that returns counts of thresholds that colours exceed.
     Oracle(OracleMachine),
 }
 
-/// How the pixels of a scene get their colours.
+/// Traces the paths of pixels, and computes the pixels' colours.
 pub(super) struct Pixels {
     source: Source,
     comparator_bits: u32,
     bound: [f64; 3],
-    /// By channel: the greatest colour of a path that is no fault of the bound.
+    /// The largest colour of a path by channel that rounding can explain; the bound itself for an
+    /// oracle.
     limit: [f64; 3],
     seed: u64,
     paths: u64,
@@ -83,15 +84,15 @@ pub(super) struct Pixels {
 /// Counts good indices: pairs of a path and a comparator that its colour exceeds.
 struct Counter {
     comparators: [Comparators; 3],
-    /// Of each channel; of the luminance alone where that is counted.
+    /// An estimator for each channel; only one, of the luminance, if the luminance is counted.
     estimators: Vec<BoxedEstimator>,
-    /// Whether strata may be counted one by one.
+    /// True if strata may be counted one by one.
     by_strata: bool,
     noise: Noise,
     one_run: Option<OneRun>,
 }
 
-/// Whether the work is to go on.
+/// Checks that the work is not cancelled.
 pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
     if workers.cancelled() {
         return Err(Stop::Cancelled);
@@ -99,7 +100,7 @@ pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Why a run of paths of this machine ended early.
+/// Converts a defect into the reason why a run of paths of this machine ended early.
 pub(super) fn ended(machine: &OracleMachine, defect: Defect) -> Stop {
     match defect {
         Defect::Cancelled => Stop::Cancelled,
@@ -149,7 +150,7 @@ impl Pixels {
         };
         for (channel, bound) in bound.into_iter().enumerate() {
             let summable = bound <= f64::MAX / 2.0 / paths as f64;
-            // Nor is NaN.
+            // A NaN is not summable either.
             if !summable {
                 return Err(RenderError::Bound { channel, bound });
             }
@@ -172,7 +173,7 @@ impl Pixels {
                 None => bound.to_vec(),
                 Some(_) => vec![luminance(&bound)],
             };
-            // What has the scale 0 is not counted.
+            // A channel with scale 0 is not counted, so its settings have no effect.
             let settings = scales.iter().map(|&scale| match scale {
                 0.0 => Settings::of(&scene.counting),
                 scale => Settings::of_channel(&scene.counting, scale),
@@ -209,7 +210,7 @@ impl Pixels {
         self.counter.as_ref()?.one_run.as_ref()
     }
 
-    /// Totals of no paths yet.
+    /// Totals without any paths.
     fn none(&self) -> Totals {
         let mut totals = Totals::default();
         if self.by_octaves() {
@@ -218,7 +219,7 @@ impl Pixels {
         totals
     }
 
-    /// Whether the counts of channels are wanted by octave.
+    /// Returns whether the counts of channels are kept by octave.
     fn by_octaves(&self) -> bool {
         let counter = self.counter.as_ref();
         counter.is_some_and(|counter| counter.by_strata && counter.one_run.is_none())
@@ -228,8 +229,8 @@ impl Pixels {
         self.bound
     }
 
-    /// Whether a pixel is traced by itself: its paths are enough to occupy all threads, or more than are
-    /// run together on a circuit.
+    /// Returns whether a pixel is traced by itself: it has enough paths to occupy all threads, or
+    /// more paths than a circuit runs together.
     pub(super) fn splits(&self) -> bool {
         match &self.source {
             Source::Real(_) => self.paths > SPLIT,
@@ -237,7 +238,7 @@ impl Pixels {
         }
     }
 
-    /// Paths that are traced without looking up.
+    /// Number of paths between two checks for cancellation.
     pub(super) fn run(&self) -> u64 {
         match &self.source {
             Source::Real(_) => RUN,
@@ -245,9 +246,10 @@ impl Pixels {
         }
     }
 
-    /// The totals of all paths of these of `pixels`, which have few each, put in their places of `all`: as many
-    /// pixels at a time as are run together. `workers` are told of them; those that `kept` has are not traced
-    /// again, and others are handed to it now and then. What is traced is in `all`, too, when it ends early.
+    /// Traces the pixels number `numbers` of `pixels`, which have few paths each, and puts their
+    /// totals into `all`. Several pixels run together, as far as a run has room. Reports the
+    /// progress to `workers`. Pixels that `kept` has are not traced again; new ones are kept there
+    /// from time to time. If the work ends early, `all` has the totals of the finished pixels.
     pub(super) fn few(
         &self,
         pixels: &[[u32; 2]],
@@ -264,7 +266,7 @@ impl Pixels {
         let open = numbers.iter().copied().filter(|&n| all[n].is_none());
         let open: Vec<usize> = open.collect();
         let mut keeper = kept.keeper();
-        // Traced, and not kept yet.
+        // Pixels that are traced but not kept yet.
         let mut new: Vec<usize> = Vec::new();
         let together = (self.run() / self.paths).max(1) as usize;
         for numbers in open.chunks(together) {
@@ -289,7 +291,7 @@ impl Pixels {
         Ok(())
     }
 
-    /// The totals of all paths of a pixel, to be kept.
+    /// Encodes the totals of all paths of a pixel as a part to be kept.
     pub(super) fn whole(&self, pixel: [u32; 2], totals: &Totals) -> Part {
         Part {
             pixel,
@@ -299,8 +301,8 @@ impl Pixels {
         }
     }
 
-    /// What was kept of part `number` of a pixel, which has `most` paths: how many of them were traced, in
-    /// whole runs, and what they add up to.
+    /// Returns the kept paths of part `number` of a pixel, and their totals. The part has `most`
+    /// paths. Only whole runs are accepted.
     fn before(
         &self,
         kept: &Parts<'_>,
@@ -317,7 +319,8 @@ impl Pixels {
         Some((paths, totals))
     }
 
-    /// Adds the paths `ids` of `pixels` to their `totals`. If it ends early, no run of paths is in them by half.
+    /// Adds the paths `ids` of `pixels` to their `totals`. If the work ends early, no run of paths
+    /// is in `totals` in part.
     fn trace(
         &self,
         pixels: &[[u32; 2]],
@@ -356,8 +359,9 @@ impl Pixels {
         }
     }
 
-    /// The totals of the many paths of one pixel, on all threads; `workers` are told of every run of
-    /// paths. Those of its parts are handed to `kept`, from which they go on.
+    /// Traces the many paths of one pixel on all threads, and returns their totals. Reports every
+    /// run of paths to `workers`. The totals of its parts are kept in `kept`, and kept ones are
+    /// continued.
     pub(super) fn many(
         &self,
         pixel: [u32; 2],
@@ -395,7 +399,7 @@ impl Pixels {
             let [totals] = totals;
             Ok(totals)
         });
-        // In the order of path indices, whichever was first.
+        // Totals are added in the order of path indices, whichever was finished first.
         let totals: Vec<Totals> = totals.collect::<Result<_, Stop>>()?;
         let mut whole = self.none();
         for later in &totals {
@@ -408,7 +412,7 @@ impl Pixels {
         for (channel, colours) in block.colours.into_iter().enumerate() {
             let limit = self.limit[channel];
             let inside = |colour: f64| colour >= 0.0 && colour <= limit;
-            // Without an early end, so that it takes several at a time.
+            // No early exit, so that several colours are checked at a time.
             let all = colours.iter().fold(true, |all, &c| all & inside(c));
             if !all {
                 let stray = &mut totals.stray[channel];
@@ -420,7 +424,7 @@ impl Pixels {
                 }
             }
             match &self.counter {
-                // Proven black; what rounding leaves is no light.
+                // The channel is proven black: values left by rounding are not added.
                 None if self.bound[channel] == 0.0 => {}
                 None => totals.colour[channel].add(colours),
                 Some(Counter {
@@ -443,8 +447,8 @@ impl Pixels {
         }
     }
 
-    /// The colour of a pixel, and the queries that it took: without an estimator the mean of its
-    /// paths, without queries.
+    /// Returns a finished pixel: its colour, its counts and its queries. Without an estimator, the
+    /// colour is the mean of its paths, without queries of a counting circuit.
     pub(super) fn finish(
         &self,
         pixel: [u32; 2],
@@ -482,7 +486,7 @@ impl Pixels {
             return Ok(finished);
         }
         for channel in 0..3 {
-            // Where nothing is to be counted, black is proven.
+            // A channel with bound 0 is proven black, and there is nothing to count.
             if self.bound[channel] > 0.0 {
                 go_on(workers)?;
                 let estimate = self.estimate(counter, pixel, channel, totals)?;
@@ -495,7 +499,7 @@ impl Pixels {
         Ok(finished)
     }
 
-    /// That all colours of a pixel's paths were within their bounds.
+    /// Checks that all colours of a pixel's paths are within their bounds.
     fn check(&self, pixel: [u32; 2], totals: &Totals, workers: &Workers<'_>) -> Result<(), Stop> {
         let stray = totals.stray.iter().enumerate();
         let mut stray = stray.filter(|(_, (paths, _))| *paths > 0);
@@ -512,7 +516,8 @@ impl Pixels {
         }))
     }
 
-    /// The first path of a pixel that has this colour in a channel: traced again, since sums do not tell.
+    /// Finds the first path of a pixel with this colour in a channel. It traces the pixel again,
+    /// because the totals do not have path indices.
     fn first_of_colour(
         &self,
         pixel: [u32; 2],
@@ -541,7 +546,7 @@ impl Pixels {
         Ok(0)
     }
 
-    /// The mean of a pixel's paths: of their colours, or of the thresholds that these exceed.
+    /// The mean of a pixel's paths: of their colours, or of the thresholds that the colours exceed.
     fn means(&self, totals: &Totals) -> [f64; 3] {
         let ids = self.paths << self.comparator_bits;
         std::array::from_fn(|channel| match self.source {
@@ -550,7 +555,7 @@ impl Pixels {
         })
     }
 
-    /// What the estimator says of a pixel's channel.
+    /// Estimates a pixel's channel.
     fn estimate(
         &self,
         counter: &Counter,
@@ -581,7 +586,7 @@ mod tests {
     use qrt_core::oracle::Oracle;
     use std::sync::atomic::{AtomicBool, Ordering};
 
-    /// A wall of radiance 2, 1, 0 that fills the picture: the colour of every path.
+    /// A wall of radiance 2, 1, 0 that fills the picture, so that every path has this colour.
     const WALL: &str = "
 name: wall
 camera: { orthographic: { eye: [0, 0, 1], target: [0, 0, 0], height: 1 } }
@@ -656,7 +661,7 @@ sampling: { path_bits: 5 }
     fn a_path_of_a_circuit_beyond_its_bound_is_reported_and_never_clamped() {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
         let mut oracle = Oracle::rgb(&scene, qrt_core::oracle::Options::default()).unwrap();
-        // The wall is as bright as the bound: as if twice as many thresholds were below it.
+        // The wall is as bright as the bound. The test doubles the counts of thresholds below it.
         for channel in &mut oracle.channels {
             match &mut channel.count {
                 Operand::Constant(count) => *count *= 2,

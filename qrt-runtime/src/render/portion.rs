@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Portion `index` of `count` that a picture is cut into, written `index/count`: `0/4` is the first of
-/// four. Together the portions have every pixel once. Their pixels lie in small rectangles all over
-/// the picture, so that all portions take about as long.
+/// Portion `index` of the `count` portions of a picture, written `index/count`: `0/4` is the first
+/// of four. Every pixel is in exactly one portion. The pixels of a portion are in small rectangles
+/// all over the picture, so that all portions take about the same time.
 ///
 /// ```
 /// use qrt_runtime::render::Portion;
@@ -21,22 +21,22 @@ pub struct Portion {
     count: u32,
 }
 
-/// What is no portion of a picture.
+/// An error that a text or numbers do not name a portion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PortionError {
-    /// Not two numbers with a slash between them.
+    /// The text is not two numbers with a slash between them.
     #[error("`{0}` is not K/N, such as 0/4 for the first of four")]
     Text(String),
-    /// A picture is cut into one portion at least.
+    /// The number of portions is 0.
     #[error("a picture is not cut into 0 portions")]
     None,
-    /// There is none of this number.
+    /// The index is not below the number of portions.
     #[error("there is no portion {index} of {count}: they are 0/{count} to {}/{count}", .count - 1)]
     Beyond {
-        /// The number that was asked for, from 0.
+        /// The requested index, counted from 0.
         index: u32,
-        /// How many there are.
+        /// Number of portions.
         count: u32,
     },
 }
@@ -51,10 +51,10 @@ impl Portion {
     /// The portion that is the whole picture.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// Portion `index`, from 0, of `count`.
+    /// Creates portion `index`, counted from 0, of `count`.
     ///
     /// # Errors
-    /// If there is none of this number.
+    /// If `count` is 0, or `index` is not below `count`.
     pub fn new(index: u32, count: u32) -> Result<Self, PortionError> {
         match count {
             0 => Err(PortionError::None),
@@ -63,17 +63,18 @@ impl Portion {
         }
     }
 
-    /// Whether item `number` of a list that is dealt out one by one, as cards are, is in it.
+    /// Returns whether item `number` of a list belongs to this portion, if items are dealt one by
+    /// one, like cards.
     pub fn takes(self, number: usize) -> bool {
         number % self.count as usize == self.index as usize
     }
 
-    /// Its number, from 0.
+    /// Returns the index of the portion, counted from 0.
     pub fn index(self) -> u32 {
         self.index
     }
 
-    /// How many portions there are.
+    /// Returns the number of portions.
     pub fn count(self) -> u32 {
         self.count
     }

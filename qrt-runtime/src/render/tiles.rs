@@ -1,29 +1,30 @@
-//! How a picture is cut into tiles. Nothing in a picture depends on it.
+//! Cuts a picture into tiles. The tiles do not affect the picture.
 
 use super::Portion;
 use crate::checkpoint::Tile;
 
-/// Paths that a tile is cut to have about: some 10 to 100 ms of work.
+/// The number of paths of a tile, about: 10 to 100 ms of work.
 const PATHS: u64 = 1 << 17;
-/// Pixels of the largest tile: with few paths a pixel, estimating takes longer than tracing.
+/// Pixels of the largest tile: with few paths of a pixel, estimating takes longer than tracing.
 const PIXELS: u64 = 256;
-/// Tiles of each portion of a picture, at least, as far as there are pixels: so many that portions take
-/// about equally long.
+/// The smallest number of tiles of each portion of a picture, if it has enough pixels. With this
+/// number, portions take about the same time.
 const TILES: u64 = 64;
 
-/// A rectangle of the film cut into tiles, numbered row by row, and the portion of them that is rendered.
+/// A rectangle of the film, cut into tiles that are numbered row by row, and the portion of the
+/// tiles to render.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tiles {
     crop: [u32; 4],
     size: [u32; 2],
     portion: Portion,
-    /// By how many columns a row of tiles is turned against the row above it.
+    /// Number of columns by which a row of tiles is rotated relative to the row above it.
     turn: u64,
 }
 
 impl Tiles {
-    /// `crop` (x, y, width, height) in tiles of `size`, or of a size that suits the number of
-    /// paths a pixel and the number of portions.
+    /// Cuts `crop` (x, y, width, height) into tiles of `size`; if `None`, into tiles of a size that
+    /// suits the number of paths of a pixel and the number of portions.
     pub(super) fn new(
         crop: [u32; 4],
         size: Option<[u32; 2]>,
@@ -47,27 +48,28 @@ impl Tiles {
                 bits -= 1;
             }
         }
-        // Seen from one row to the next, a portion's tiles move by the golden section of the portions.
+        // From one row to the next, a portion's tiles shift by the golden section of the number of
+        // portions.
         let columns = u64::from(tiles.columns_rows()[0].max(1));
         let step = libm::round(count as f64 * 0.382) as u64;
         tiles.turn = (columns + count - step) % count % columns;
         tiles
     }
 
-    /// How many there are of all portions.
+    /// Number of tiles of all portions.
     fn all(&self) -> u64 {
         let [columns, rows] = self.columns_rows();
         u64::from(columns) * u64::from(rows)
     }
 
-    /// How many there are of the portion.
+    /// Number of tiles of the portion.
     pub(super) fn count(&self) -> u64 {
         let (index, count) = (self.portion.index(), self.portion.count());
         let before = u64::from(count - 1 - index);
         (self.all() + before) / u64::from(count)
     }
 
-    /// Pixels of the portion.
+    /// Number of pixels of the portion.
     pub(super) fn area(&self) -> u64 {
         let [_, _, width, height] = self.crop;
         if self.portion == Portion::WHOLE {
@@ -85,7 +87,7 @@ impl Tiles {
         [width.div_ceil(self.size[0]), height.div_ceil(self.size[1])]
     }
 
-    /// Tile `number` of the portion: x, y, width, height on the film.
+    /// Returns the rectangle of tile `number` of the portion: x, y, width, height on the film.
     pub(super) fn rectangle(&self, number: u64) -> [u32; 4] {
         let [x, y, width, height] = self.crop;
         let columns = u64::from(self.columns_rows()[0].max(1));
@@ -94,7 +96,7 @@ impl Tiles {
         let column = (place + row % columns * self.turn) % columns;
         let left = column as u32 * self.size[0];
         let top = row as u32 * self.size[1];
-        // Both below the crop's sides, so that nothing is cut off.
+        // The tile's corner is within the crop, so the subtractions cannot overflow.
         let (right, bottom) = (width - left, height - top);
         [
             x + left,
@@ -105,12 +107,12 @@ impl Tiles {
     }
 }
 
-/// The pixels of a rectangle, row by row, as [x, y].
+/// Iterates over the pixels of a rectangle, row by row, as [x, y].
 pub(super) fn pixels([x, y, width, height]: [u32; 4]) -> impl Iterator<Item = [u32; 2]> {
     (y..y + height).flat_map(move |y| (x..x + width).map(move |x| [x, y]))
 }
 
-/// Where the pixels of `tile` are in a picture of `crop`, row by row.
+/// Iterates over the ranges of `tile`'s rows in a picture of `crop`.
 pub(super) fn rows(tile: &Tile, crop: [u32; 4]) -> impl Iterator<Item = std::ops::Range<usize>> {
     let (left, top) = ((tile.x - crop[0]) as usize, (tile.y - crop[1]) as usize);
     let (width, height) = (tile.width as usize, tile.height as usize);
@@ -163,8 +165,8 @@ mod tests {
         assert_eq!([1, 1 << 12, 1 << 17, 1 << 40].map(area), [256, 32, 1, 1]);
     }
 
-    /// Where pixels cost more to one side, or only within a disc, no portion costs more than 15 % above
-    /// the mean of all.
+    /// Checks that no portion costs more than 15 % above the mean of all if pixels cost more
+    /// towards one side, or only within a disc.
     #[test]
     fn portions_cost_about_as_much_wherever_the_picture_is_costly() {
         type Cost = fn(f64, f64) -> f64;

@@ -1,26 +1,26 @@
-//! Sums of a pixel's paths.
+//! Sums over a pixel's paths.
 
 use super::one_run::{OneRun, Segments};
 use crate::counting::Octaves;
 use crate::sample::Sum;
 
-/// What the paths of a pixel add up to, per channel.
+/// Sums over the paths of a pixel, per channel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Totals {
     pub(super) colour: [Sum; 3],
     pub(super) good: [u64; 3],
-    /// The same by octave of their thresholds, where strata may be counted one by one.
+    /// The good indices by octave of their thresholds, if strata may be counted one by one.
     pub(super) octaves: [Octaves; 3],
-    /// The counts of the luminance, where it is counted.
+    /// The counts of the luminance, if it is counted.
     pub(super) segments: Segments,
-    /// Queries that primary hits took.
+    /// Number of queries for primary hits.
     pub(super) queries: u64,
-    /// Paths out of bounds, and the colour of the first.
+    /// Number of paths out of bounds, and the colour of the first of them.
     pub(super) stray: [(u64, f64); 3],
 }
 
 impl Totals {
-    /// What they are, to go on from.
+    /// Encodes the totals, so that they can be continued later.
     pub(super) fn words(&self) -> Vec<u64> {
         let mut words = vec![self.queries];
         for channel in 0..3 {
@@ -52,7 +52,8 @@ impl Totals {
         }
     }
 
-    /// Those that these words are of, if these are of no paths yet; none of words that are of none.
+    /// Decodes totals from words into `self`, which must be totals without paths; `None` if the
+    /// words are not those of totals.
     pub(super) fn with_words(mut self, words: &[u64], one_run: Option<&OneRun>) -> Option<Self> {
         let mut words = words.iter().copied();
         let words = &mut words;

@@ -1,9 +1,9 @@
-//! How a path's primary hit is found.
+//! The methods that find a path's primary hit.
 //!
-//! Under [`Visibility::Grover`] that is a search of its own for every path, with an oracle of
-//! nearest hits (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024), and integration is classical:
-//! paths are taken one by one, and the pixel is their mean. What follows the primary hit is traced
-//! as ever, by the same program but for its first intersection, which is given: see
+//! Under [`Visibility::Grover`], every path has a search of its own with an oracle of nearest hits
+//! (Lanzagorta & Uhlmann 2005; Alves 2019; Santos 2024). The integration is then classical: paths
+//! are taken one by one, and the pixel is their mean. The rest of the path is traced by the same
+//! program as always, except that its first intersection is an input: see
 //! [`qrt_core::oracle::Oracle::given_primary_hit`].
 
 use super::{Model, Options, RenderError};
@@ -15,51 +15,52 @@ use qrt_core::tracer::PixelClass;
 use qrt_core::valid::ValidScene;
 use std::sync::Arc;
 
-/// The probability with which a ray's search may miss the nearest face, unless another is asked
-/// for.
+/// The default probability that a ray's search misses the nearest face.
 pub const DEFAULT_FAILURE: f64 = 1e-3;
 
-/// How a path's primary hit is found.
+/// The method that finds a path's primary hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Visibility {
-    /// By the tracer, which asks about all faces, like all other hits.
+    /// The tracer tests all faces, as for all other hits.
     #[default]
     Classical,
-    /// By asking the oracle of nearest hits about every face, and taking the least: the picture of
-    /// a search that never fails.
+    /// The oracle of nearest hits is queried about every face, and the nearest is taken. The
+    /// picture is that of a search that never fails.
     Exhaustive,
-    /// By searching with that oracle.
+    /// A search with the oracle of nearest hits.
     Grover {
-        /// The probability with which a ray's search may miss the nearest face: above 0, below 1.
+        /// The probability that a ray's search may miss the nearest face: above 0 and below 1.
         failure: f64,
-        /// What a search begins with.
+        /// The first guess of a search.
         guess: Guess,
     },
 }
 
-/// What was searched, and what a query of it costs.
+/// The size of a search for primary hits, and the cost of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Searched {
     /// P, the number of faces.
     pub faces: u64,
     /// N, the number of basis states of a face's number: a power of two.
     pub states: u64,
-    /// The bound on the probability that a ray's nearest face is missed; 0 if all are asked about.
+    /// The bound on the probability that a ray's nearest face is missed; 0 if all faces are
+    /// queried.
     pub failure: f64,
-    /// Qubits of the oracle of nearest hits: the most in use at any time.
+    /// Qubits of the oracle of nearest hits: the largest number in use at any time.
     pub qubits: u64,
-    /// Toffoli gates of a query.
+    /// Number of Toffoli gates of a query.
     pub toffoli: u64,
 }
 
 impl Visibility {
-    /// A search that fails with [`DEFAULT_FAILURE`] and begins with what the path before it met.
+    /// A search with the failure probability [`DEFAULT_FAILURE`] that begins with the hit of the
+    /// path before it.
     pub const GROVER: Self = Self::Grover {
         failure: DEFAULT_FAILURE,
         guess: Guess::Coherent,
     };
 
-    /// As it is written.
+    /// Returns the name of the method in text.
     pub fn name(self) -> &'static str {
         match self {
             Self::Classical => "classical",
@@ -68,7 +69,8 @@ impl Visibility {
         }
     }
 
-    /// What a picture or a checkpoint says of it: nothing if the tracer finds primary hits.
+    /// Returns the entries for a picture's metadata or a checkpoint: none if the tracer finds
+    /// primary hits.
     pub(super) fn written(self) -> Vec<(String, String)> {
         let mut written = Vec::new();
         let mut say = |key: &str, value: String| written.push((key.to_owned(), value));
@@ -82,8 +84,8 @@ impl Visibility {
         written
     }
 
-    /// The estimator: without a superposition of paths there is nothing to count, so that the
-    /// scene's own gives way to [`Estimator::Exact`].
+    /// Returns the estimator. Without a superposition of paths there is nothing to count, so
+    /// [`Estimator::Exact`] replaces the scene's own.
     pub(super) fn estimator(
         self,
         options: &Options<'_>,
@@ -100,7 +102,8 @@ impl Visibility {
     }
 }
 
-/// The machine that traces paths whose primary hits are searched for, and what is searched.
+/// Creates the machine that traces paths with a search for their primary hits, and describes the
+/// search.
 pub(super) fn machine(
     scene: &ValidScene,
     options: &Options<'_>,

@@ -128,7 +128,7 @@ fn a_file_that_is_replaced_keeps_its_permissions() {
     for kept in [0o600, 0o640, 0o755, 0o400, 0o666] {
         fs::set_permissions(&path, fs::Permissions::from_mode(kept)).unwrap();
         replace_file(&path, |out| {
-            // Nor may others read it while it is written.
+            // The partial file has the same permissions while it is written.
             let partial = folder
                 .names()
                 .into_iter()
@@ -159,7 +159,7 @@ fn what_the_dead_have_left_is_removed_and_what_the_living_write_is_not() {
         out.write_all(b"slow")?;
         out.flush()?;
         assert!(!folder.names().contains(&abandoned.to_owned()));
-        // Another writes the same file, and is done first.
+        // Another process writes the same file, and finishes first.
         write(&path, b"quick")?;
         try_writing(&Place::of(&path)?)
     })

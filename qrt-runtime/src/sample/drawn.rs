@@ -1,4 +1,4 @@
-//! What an estimator says of pixels, drawn several times.
+//! Estimates of pixels, drawn several times.
 
 use crate::counting::Octaves;
 use crate::estimators::{
@@ -13,26 +13,26 @@ use std::collections::btree_map::Entry;
 /// Runs of an estimator on the channels of pixels.
 pub(crate) struct Draws<'a> {
     pub(crate) counting: &'a Counting,
-    /// By pixel and channel, the scale of colours; where it is 0 nothing is counted, and the
+    /// The scale of colours, by pixel and channel. If it is 0, nothing is counted, and the
     /// amplitude is 0.
     pub(crate) scales: &'a [[f64; 3]],
     pub(crate) noise: Noise,
-    /// Keys the first draw; the others have keys that follow from it.
+    /// The key of the first draw; the keys of the others follow from it.
     pub(crate) seed: u64,
-    /// Draws of each channel.
+    /// Number of draws of each channel.
     pub(crate) count: u64,
     /// N, the number of indices of a channel.
     pub(crate) total: u64,
 }
 
-/// One for each scale that there is: few, for channels have one in each class of pixels.
+/// An estimator for each scale. There are few scales: one for each channel and class of pixels.
 type Estimators = BTreeMap<u64, Box<dyn AmplitudeEstimator + Send + Sync>>;
 
-/// What there is to be counted of pixels, by channel.
+/// The counts of good indices of pixels, by channel.
 pub(crate) enum Countable<'a> {
-    /// S.
+    /// S, the number of good indices.
     Whole(&'a [[u64; 3]]),
-    /// How paths exceed thresholds, where strata may be counted one by one.
+    /// Counts of exceeded thresholds by octave, so that strata may be counted one by one.
     Octaves(&'a [[Octaves; 3]]),
 }
 
@@ -45,7 +45,7 @@ impl Countable<'_> {
     }
 }
 
-/// The estimates that were drawn of a pixel.
+/// The estimates that were drawn for one pixel.
 pub(crate) struct Drawn {
     /// The estimated amplitudes, by draw and channel.
     pub(crate) amplitudes: Vec<[f64; 3]>,
@@ -54,7 +54,7 @@ pub(crate) struct Drawn {
 }
 
 impl Draws<'_> {
-    /// By pixel, what is drawn.
+    /// Draws the estimates of all pixels.
     pub(crate) fn of(
         &self,
         pixels: &[[u32; 2]],

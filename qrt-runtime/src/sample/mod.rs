@@ -1,7 +1,7 @@
-//! What the paths of a film's pixels sum to, without a picture: for those who measure errors.
+//! Sums over the paths of a film's pixels without a picture, for measuring errors.
 //!
-//! All sums are over pixels that are given, in an order that path indices decide, so that they do
-//! not depend on the number of threads. Work is done on the threads of the pool that calls.
+//! Each function sums over a list of pixels. The order of a sum follows from path indices, so the
+//! sums do not depend on the number of threads. The work runs on the threads of the caller's pool.
 
 mod drawn;
 mod error;
@@ -18,11 +18,12 @@ pub use tally::{Tally, counted_tallies, tallies};
 use crate::machines::Real;
 use crate::workers::Workers;
 
-/// By pixel and channel, the mean of a pixel's paths.
+/// The mean of a pixel's paths, by pixel and channel.
 pub type Means = Vec<[f64; 3]>;
 
 /// The means of `pixels` over their first `2^k` paths, for each k of `bits` (ascending, none beyond
-/// the machine's path bits): under the digital net, what a scene of so many path bits shows.
+/// the machine's path bits). Under the digital net, these are the pixels of a scene with k path
+/// bits.
 ///
 /// # Errors
 /// See [`SampleError`].

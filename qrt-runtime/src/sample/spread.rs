@@ -1,12 +1,12 @@
-//! Which pixels stand for a film.
+//! Chooses pixels that represent a film.
 
-/// `count` pixels of a film, different ones and in its row-by-row order; all of them if it has no
-/// more. They are multiples of a step that is about the golden section of the film, so that rows
-/// and columns are met evenly whatever the number.
+/// Returns `count` different pixels of a film, in its row-by-row order; all of them if it has no
+/// more. They are multiples of a step that is about the golden section of the film, so that they
+/// cover rows and columns evenly for any `count`.
 pub fn spread(film: [u32; 2], count: u64) -> Vec<[u32; 2]> {
     let width = u64::from(film[0]);
     let area = width * u64::from(film[1]);
-    // Without a common divisor no place comes twice before all have come.
+    // A step without a common divisor visits every place once before any place comes again.
     let mut step = ((area as f64 * 0.618_033_988_75) as u64).max(1);
     while common_divisor(step, area) > 1 {
         step += 1;
@@ -48,7 +48,7 @@ mod tests {
                 assert!(places.windows(2).all(|pair| pair[0] < pair[1]));
             }
         }
-        // Neither in one column nor in one row.
+        // The pixels are in several rows and several columns.
         let pixels = spread([64, 64], 16);
         for axis in [0, 1] {
             let mut met: Vec<u32> = pixels.iter().map(|pixel| pixel[axis] / 8).collect();

@@ -1,21 +1,21 @@
 //! Sums over the paths of a pixel, in an order that path indices alone decide.
 //!
-//! Floating-point sums depend on their order. Here it is: path indices are cut into blocks of 256;
-//! within a block, eight sums take every eighth path index and are then added in pairs; blocks are
-//! added in order. So the sum doesn't depend on how the paths were handed over, and its rounding
-//! error grows with the number of blocks, not of paths.
+//! Floating-point sums depend on their order. The order here is: path indices are cut into blocks
+//! of 256; within a block, eight sums take every eighth path index and are then added in pairs;
+//! blocks are added in order. So the sum doesn't depend on the lengths of the slices that are
+//! added, and its rounding error grows with the number of blocks, not of paths.
 
 const LANES: usize = 8;
 const BLOCK: usize = 256;
 
-/// A sum of colours, handed over in the order of their path indices.
+/// A sum of colours, which are added in the order of their path indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum {
-    /// The sum of the whole blocks.
+    /// The sum of the complete blocks.
     total: f64,
-    /// The sums of the block under way.
+    /// The sums of the current block.
     lanes: [f64; LANES],
-    /// Path indices of the block under way.
+    /// Number of path indices in the current block.
     filled: usize,
 }
 
@@ -50,10 +50,10 @@ impl Sum {
         self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
     }
 
-    /// How many words a sum is.
+    /// Number of words of an encoded sum.
     pub(crate) const WORDS: usize = LANES + 2;
 
-    /// What it is, to go on from.
+    /// Encodes the state of the sum, so that it can be continued later.
     pub(crate) fn words(&self) -> [u64; Self::WORDS] {
         let mut words = [self.filled as u64; Self::WORDS];
         words[0] = self.total.to_bits();
@@ -63,7 +63,7 @@ impl Sum {
         words
     }
 
-    /// The sum that these words are of; none of words that are of none.
+    /// Decodes a sum from words; `None` if they are not those of a sum.
     pub(crate) fn of_words(words: &[u64; Self::WORDS]) -> Option<Self> {
         let [total, lanes @ .., filled] = *words;
         Some(Self {
@@ -73,7 +73,7 @@ impl Sum {
         })
     }
 
-    /// Adds a sum over later path indices. To be used on block boundaries.
+    /// Adds a sum over later path indices. Sums may be appended only at block boundaries.
     pub(crate) fn append(&mut self, later: &Self) {
         self.total = self.value() + later.value();
         self.lanes = [0.0; LANES];
@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn rounding_stays_far_below_what_a_picture_shows() {
-        // A plain sum of these is off by 4e-11 in relation.
+        // A plain sum of these values has a relative error of 4e-11.
         let mut sum = Sum::default();
         for _ in 0..1 << 12 {
             sum.add(&[0.1; 256]);

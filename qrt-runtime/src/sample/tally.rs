@@ -7,22 +7,22 @@ use crate::workers::Workers;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths that a thread traces at a time.
+/// Number of paths that a thread traces at a time.
 const RUN: u64 = 1 << 15;
 
-/// What paths of a pixel sum to.
+/// Sums over paths of one pixel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// By channel: the sum of their colours, in radiance.
+    /// The sum of the paths' colours by channel, in radiance.
     pub colour: [f64; 3],
-    /// By register of comparators, and by channel: the good indices.
+    /// Number of good indices, by register of comparators and by channel.
     pub good: Vec<[u64; 3]>,
-    /// By channel: those of the first register, by octave.
+    /// The good indices of the first register, by channel and octave.
     pub octaves: [Octaves; 3],
 }
 
 impl Tally {
-    /// Adds what later paths of the same pixel sum to, against the same comparators.
+    /// Adds the sums over later paths of the same pixel, counted against the same comparators.
     pub(crate) fn add(&mut self, later: &Self) {
         for (sum, more) in self.colour.iter_mut().zip(later.colour) {
             *sum += more;
@@ -39,8 +39,8 @@ impl Tally {
     }
 }
 
-/// The paths `ids` of `pixels` in real arithmetic; counted against each of `comparators`, channel
-/// by channel.
+/// Sums the paths `ids` of `pixels` in real arithmetic, and counts them against each of
+/// `comparators`, channel by channel.
 ///
 /// # Errors
 /// See [`SampleError`].
@@ -83,11 +83,11 @@ pub fn tallies(
     })
 }
 
-/// The paths `ids` of `pixels` as a scene's oracle counts them: one register of comparators, the
-/// oracle's own, and no colours.
+/// Sums the paths `ids` of `pixels` as a scene's oracle counts them: with one register of
+/// comparators, the oracle's own, and without colours.
 ///
 /// # Errors
-/// Cancelled, and a circuit that is not as it must be.
+/// If the work is cancelled, or the circuit is not a valid oracle.
 pub fn counted_tallies(
     machine: &OracleMachine,
     pixels: &[[u32; 2]],
@@ -117,7 +117,7 @@ pub fn counted_tallies(
     })
 }
 
-/// Cuts the work into runs of paths, or of pixels with few paths, and adds them up in order.
+/// Cuts the work into runs of paths, or of pixels with few paths, and adds their tallies in order.
 fn in_runs(
     pixels: &[[u32; 2]],
     ids: Range<u64>,

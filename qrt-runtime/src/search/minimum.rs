@@ -1,4 +1,4 @@
-//! The minimum, by searching again for what is nearer than what was found.
+//! Finds the minimum by repeated searches for a nearer face than the nearest so far.
 
 use super::rounds::{Rounds, marked_probability};
 use crate::machines::Candidate;
@@ -14,7 +14,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// A search that knows of nothing yet, and draws from `stream`.
+    /// Creates a search without a known face. It draws from `stream`.
     pub fn new(stream: Stream) -> Self {
         Self {
             stream,
@@ -24,7 +24,8 @@ impl Search {
         }
     }
 
-    /// Asks whether the ray meets the face that was guessed: one query.
+    /// Records the oracle's answer for a guessed face: `meets` is true if the ray meets it. Costs
+    /// one query.
     pub fn guess(&mut self, meets: bool, guess: Candidate) {
         self.queries += 1;
         if meets {
@@ -32,8 +33,9 @@ impl Search {
         }
     }
 
-    /// The rounds of one search for a marked state: until one is measured, or all have failed and
-    /// the search is over. `marks` and `distances` are the oracle's for [`Search::nearest`].
+    /// Runs the rounds of one search for a marked state. They end when a marked state is measured;
+    /// if all rounds fail, the search is over. `marks` and `distances` are the oracle's for
+    /// [`Search::nearest`].
     pub fn run(&mut self, rounds: &Rounds, marks: &[bool], distances: &[i64]) {
         let marked = marks.iter().filter(|&&mark| mark).count();
         for &count in rounds.counts() {
@@ -41,7 +43,7 @@ impl Search {
             self.queries += iterations.max(1);
             let probability = marked_probability(iterations, marked, rounds.states());
             if self.stream.uniform() >= probability {
-                // An unmarked state: which one, says nothing.
+                // The measured state is unmarked, and its number carries no information.
                 continue;
             }
             let chosen = self.below(marked as u64) as usize;
@@ -57,22 +59,22 @@ impl Search {
         self.over = true;
     }
 
-    /// The nearest face so far.
+    /// Returns the nearest face found so far.
     pub fn nearest(&self) -> Option<Candidate> {
         self.best
     }
 
-    /// How many queries were used so far.
+    /// Returns the number of queries used so far.
     pub fn queries(&self) -> u64 {
         self.queries
     }
 
-    /// Whether it has given up, and so ended.
+    /// Returns whether the search is over: all rounds of its last search failed.
     pub fn is_over(&self) -> bool {
         self.over
     }
 
-    /// A number below `bound`, each as likely as another up to `bound 2^-53`.
+    /// Draws a number below `bound`, uniformly up to `bound 2^-53`.
     fn below(&mut self, bound: u64) -> u64 {
         (self.stream.uniform() * bound as f64) as u64
     }

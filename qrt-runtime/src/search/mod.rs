@@ -1,33 +1,33 @@
-//! Quantum search: the nearest of the faces that a ray meets, in about the square root of their
-//! number of queries.
+//! Quantum search for the nearest of the faces that a ray meets, with about as few queries as the
+//! square root of the number of faces.
 //!
-//! Of the `N = 2^m` basis states of a face's number, M are marked by the oracle of nearest hits
-//! ([`crate::machines::NearestMachine`]): those that the ray meets nearer than the nearest so far.
-//! From the uniform superposition, k iterations of Grover's iterate make the measured number a
-//! marked one with probability
+//! Of the `N = 2^m` basis states of a face's number, the oracle of nearest hits
+//! ([`crate::machines::NearestMachine`]) marks M: the faces that the ray meets nearer than the
+//! nearest so far. After k iterations of Grover's iterate from the uniform superposition, the
+//! measured number is a marked one with probability
 //!
 //! ```text
 //! sin^2((2k + 1) theta),      sin theta = sqrt(M / N),
 //! ```
 //!
-//! each marked one as likely as another; so do the unmarked ones share the rest, for the amplitudes
-//! never leave the plane of the two uniform superpositions. M is unknown, and so is the best k: it
-//! is drawn anew for each round ([`Rounds`]; Boyer, Brassard, Hoyer & Tapp, *Tight bounds on
-//! quantum searching*, 1998). What is measured becomes the nearest so far, and the search begins
-//! again until it finds nothing ([`Search`]; Durr & Hoyer, *A quantum algorithm for finding the
-//! minimum*, 1996). It ends with a stated probability of having missed something.
+//! and each marked number is equally likely. The unmarked ones share the rest equally, because the
+//! amplitudes stay in the plane of the two uniform superpositions. M is unknown, and so is the best
+//! k; each round draws k anew ([`Rounds`]; Boyer, Brassard, Hoyer & Tapp, *Tight bounds on quantum
+//! searching*, 1998). The measured face becomes the nearest so far, and the search begins again
+//! until it finds nothing ([`Search`]; Durr & Hoyer, *A quantum algorithm for finding the minimum*,
+//! 1996). The probability that the search misses the nearest face has a stated bound.
 //!
-//! Here, M and the marked numbers are what the circuit says of every basis state, and the
-//! measurements are drawn from that distribution. The search learns what it measures, and nothing
-//! else.
+//! In this simulation, the circuit is run on every basis state to find M and the marked numbers,
+//! and the measurements are drawn from the resulting distribution. The search gets only the
+//! measured numbers.
 //!
 //! # Queries
 //!
 //! A query is one application of the oracle: compute, flip, uncompute. A round of k iterations is k
-//! queries; one without an iteration counts as one, for whether what was measured is marked must be
-//! asked of something. After an iteration that answer is not counted, as for the estimators: one
-//! more evaluation a round, classical, would change no exponent. A first guess is asked about once:
-//! one query.
+//! queries. A round without an iteration counts as one query, because the measured number must be
+//! checked for its mark. After an iteration this check is not counted, as for the estimators: one
+//! more classical evaluation for each round would change no exponent. The check of a first guess
+//! counts as one query.
 //!
 //! ```
 //! use qrt_runtime::random::Stream;

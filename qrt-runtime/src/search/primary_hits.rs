@@ -1,4 +1,4 @@
-//! The primary hits of paths, found by asking the oracle of nearest hits.
+//! Finds the primary hits of paths with the oracle of nearest hits.
 
 use super::{Rounds, Search};
 use crate::machines::{Answers, Asked, Candidate, Defect, NearestMachine, PathRun, PrimaryHits};
@@ -6,49 +6,52 @@ use crate::named::named;
 use crate::random::Stream;
 use std::collections::BTreeMap;
 
-/// Paths in turn of which each takes the hit of the one before as its first guess. Chains begin at
-/// multiples of this; blocks of paths and the paths of a pixel are whole chains or shorter than
-/// one, so that nothing depends on how paths are cut into blocks.
+/// Number of successive paths in a chain: each takes the hit of the path before it as its first
+/// guess. Chains begin at multiples of this number. Blocks of paths and the paths of a pixel are
+/// whole chains or shorter than one, so the result does not depend on how paths are cut into
+/// blocks.
 const CHAIN: usize = 16;
 
-/// Pixels of a row of which each takes, for the first path of each chain, the hit of the same path
-/// of the pixel on its left. Such rows begin at multiples of this, so that a pixel depends on few
-/// others; those that a call does not ask for are searched, too, and their queries not counted:
-/// the call that asks for them does. So nothing depends on how a film is cut into tiles.
+/// Number of successive pixels of a row in a group. For the first path of each chain, a pixel takes
+/// the hit of the same path of the pixel on its left. Groups begin at multiples of this number, so
+/// a pixel depends on few others. A call also searches those pixels of the group that it needs but
+/// was not called for, and does not count their queries: the call for these pixels counts them. The
+/// result therefore does not depend on how a film is cut into tiles.
 const ROW: u32 = 8;
 
-/// Basis states whose answers are held at a time, unless one ray alone has more.
+/// The largest number of basis states whose answers are in memory at a time, unless one ray has
+/// more.
 const STATES: usize = 1 << 18;
 
-/// The channel of [`Stream`] that searches draw from; counting has those of the colours.
+/// The channel of [`Stream`] from which searches draw; counting uses those of the colours.
 const CHANNEL: u8 = 16;
 
 named! {
-    /// What a search begins with.
+    /// The first guess of a search.
     #[derive(Default)]
     pub enum Guess {
-        /// Whatever its first round measures.
+        /// No guess: the search begins with its first round.
         Random = "random",
-        /// What the path before it met, and for the first one of a pixel what the same path of the
-        /// pixel beside it met: coherence between pixels (Santos 2024).
+        /// The face that the path before it met. The first path of a pixel takes the face that the
+        /// same path of the neighbouring pixel met: coherence between pixels (Santos 2024).
         #[default]
         Coherent = "coherent",
     }
 }
 
-/// How the nearest face is found.
+/// The method that finds the nearest face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
-    /// By asking the oracle about every face: P queries a ray.
+    /// Queries the oracle about every face: P queries for each ray.
     Exhaustive,
-    /// By Grover's search for the nearest face.
+    /// Grover's search for the nearest face.
     Grover(Rounds, Guess),
 }
 
-/// What a ray meets first, and the queries that finding it took.
+/// The primary hit of a ray, and the number of queries that found it.
 type Found = (Option<Candidate>, u64);
 
-/// What finds the primary hits of paths: see [`PrimaryHits`].
+/// Finds the primary hits of paths: see [`PrimaryHits`].
 pub struct FoundHits {
     machine: NearestMachine,
     method: Method,
@@ -56,7 +59,8 @@ pub struct FoundHits {
 }
 
 impl FoundHits {
-    /// Asks `machine`, by `method`; draws are keyed by seed, pixel and path.
+    /// Creates a finder that queries `machine` by `method`. Draws are keyed by `seed`, pixel and
+    /// path.
     pub fn new(machine: NearestMachine, method: Method, seed: u64) -> Self {
         Self {
             machine,
@@ -65,13 +69,13 @@ impl FoundHits {
         }
     }
 
-    /// The machine that is asked.
+    /// Returns the machine with the oracle of nearest hits.
     pub fn machine(&self) -> &NearestMachine {
         &self.machine
     }
 
-    /// The nearest of these rays' faces and how many queries it took, for as many rays as
-    /// `guesses` has; a guess is a face's number.
+    /// Searches for the nearest face of each of `rays`, and counts the queries. A guess is the
+    /// number of a face; `guesses` has an entry for each ray.
     fn search(
         &self,
         rounds: &Rounds,
@@ -121,7 +125,7 @@ impl FoundHits {
             .collect())
     }
 
-    /// The least of all.
+    /// Finds the nearest face of each ray by querying all faces.
     fn exhaust(&self, rays: &[Asked]) -> Result<Vec<Found>, Defect> {
         let mut answers = Answers::default();
         self.machine.ask(rays, &mut answers)?;
@@ -138,9 +142,9 @@ impl FoundHits {
         Ok((0..rays.len()).map(|ray| (least(ray), queries)).collect())
     }
 
-    /// The nearest of any number of rays' faces, and how many queries each took.
+    /// Finds the nearest face of each ray, for any number of rays, and counts the queries of each.
     fn all(&self, rays: &[Asked], guesses: &[Option<u32>]) -> Result<Vec<Found>, Defect> {
-        // Rays whose answers fit into memory together.
+        // Number of rays whose answers fit into memory together.
         let together = (STATES / self.machine.oracle().states()).max(1);
         let mut found = Vec::with_capacity(rays.len());
         for (rays, guesses) in rays.chunks(together).zip(guesses.chunks(together)) {
@@ -152,12 +156,12 @@ impl FoundHits {
         Ok(found)
     }
 
-    /// Of the lanes that begin a chain: the lane, what it met, and its queries.
+    /// Finds the hits of the lanes that begin a chain: the lane, its hit, and its queries.
     fn chains_first(
         &self,
         lanes: &[(usize, Asked)],
     ) -> Result<Vec<(usize, Option<Candidate>, u64)>, Defect> {
-        // By row, path and column: the lane, if it is one.
+        // The lane by row, path and column; `None` for a path of a pixel that was not requested.
         let mut firsts: BTreeMap<(u32, u64, u32), Option<usize>> = BTreeMap::new();
         for (lane, &(_, Asked { pixel, id, .. })) in lanes.iter().enumerate() {
             if (id as usize).is_multiple_of(CHAIN) {
@@ -199,7 +203,7 @@ impl PrimaryHits for FoundHits {
     fn find(&self, runs: &[PathRun], hits: &mut [u64], queries: &mut [u64]) -> Result<(), Defect> {
         let none = self.machine.oracle().faces() as u64;
         let number = |hit: Option<Candidate>| hit.map_or(none, |hit| u64::from(hit.primitive));
-        // By lane: its run and its ray.
+        // The run and the ray of each lane.
         let lanes: Vec<(usize, Asked)> = runs
             .iter()
             .enumerate()
@@ -228,7 +232,7 @@ impl PrimaryHits for FoundHits {
                 store(lane, hit, asked, hits);
             }
         }
-        // Lanes that are found at the same time.
+        // Each step searches for the lanes at the same place of their chains together.
         let steps = if chained { 1..CHAIN } else { 0..1 };
         for step in steps {
             let now = |lane: &usize| !chained || lanes[*lane].1.id as usize % CHAIN == step;

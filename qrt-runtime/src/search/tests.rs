@@ -2,7 +2,8 @@ use super::*;
 use crate::machines::Candidate;
 use crate::random::Stream;
 
-/// A search among `order`, by rank from the nearest, for whom the marks are known.
+/// Runs a search among `ranks`, which count from the nearest. Returns the rank found, and the
+/// queries.
 fn find(rounds: &Rounds, ranks: &[usize], guess: Option<usize>, stream: Stream) -> (usize, u64) {
     let mut search = Search::new(stream);
     let distances: Vec<i64> = ranks.iter().map(|&rank| rank as i64).collect();
@@ -59,7 +60,7 @@ fn there_are_as_many_rounds_as_the_failure_asks_for_and_no_more() {
     for (states, faces) in [(2, 1), (2, 2), (32, 17), (1024, 1024), (4096, 2500)] {
         for failure in [0.3, 1e-3, 1e-9] {
             let rounds = Rounds::new(states, faces, failure).unwrap();
-            // The formula, from its terms.
+            // The formula of the documentation, from its terms.
             let stated = |rounds: &Rounds| {
                 let worst = (1..=faces).map(|marked| rounds.miss(marked));
                 let later = (1..faces).map(|marked| rounds.miss(marked) / (marked + 1) as f64);
@@ -115,16 +116,16 @@ fn a_search_misses_what_it_may_and_no_more_often() {
         random <= rounds.failure() + 4.0 * sigma(failure),
         "{random}"
     );
-    // It is a bound on what does happen: not all of it is slack.
+    // The bound is not far above the measured probability.
     assert!(random > 0.2 * failure, "{random}");
-    // From the second nearest there is one step left.
+    // From the second nearest face, one step is left.
     let second = missed(Some(1), &mut dice);
     let exact = rounds.miss(1);
     assert!(
         (second - exact).abs() < 4.0 * sigma(exact),
         "{second}, {exact}"
     );
-    // Who begins at the nearest cannot miss it.
+    // A search that begins at the nearest face cannot miss it.
     assert_eq!(missed(Some(0), &mut dice), 0.0);
 }
 

@@ -1,4 +1,4 @@
-//! What to change next: the parameter that buys most for its price.
+//! Advice on the next change: the parameter that reduces the error most for its price.
 
 use super::figures::TOTAL;
 use super::fronts::candidates;
@@ -7,16 +7,18 @@ use super::table::Row;
 use super::{Sweep, Trade};
 use crate::shell;
 
-/// What errors are of, as [`super::ERRORS`], but for the total.
+/// Names of the parts of the error, in the order of [`super::ERRORS`], without the total.
 const PARTS: [&str; 5] = ["paths", "comparators", "width", "counting", "depth"];
-/// The error of depth, which is not in the total.
+/// Index of the error of depth, which is not in the total.
 const DEPTH: usize = 4;
 
-/// A tenth of the error, or of the price, is worth a change.
+/// The ratio of error, or of price, from which a change is worthwhile: a tenth less.
 const WORTH: f64 = 0.9;
 
-/// Sentences: which part of the error is the largest, what would lessen it at no price, what buys most,
-/// and what is paid for nothing.
+/// Returns sentences that advise on the next change.
+///
+/// They name the largest part of the error, the best change at no greater price, the change that
+/// reduces the error most for its price, and the change that saves most at about the same error.
 pub(super) fn sentences(trade: &Trade) -> Vec<String> {
     let Some(own) = trade.scene() else {
         return Vec::new();
@@ -56,7 +58,7 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
             times(change.price),
         ));
     }
-    // Errors fall by powers of the price: the steepest buys most.
+    // Errors fall by powers of the price, so the steepest change reduces the error most.
     let dearer = others
         .iter()
         .filter(|change| change.price > 1.0 && change.error <= WORTH);
@@ -89,10 +91,10 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
     said
 }
 
-/// A row beside the scene's own.
+/// A row compared with the scene's own.
 struct Change<'a> {
     row: &'a Row,
-    /// What is set otherwise, as the command line takes it.
+    /// The options of the command line that make the change.
     sets: String,
     /// Total error, as a fraction of the scene's.
     error: f64,
@@ -114,14 +116,14 @@ impl<'a> Change<'a> {
         (change.price > 0.0).then_some(change)
     }
 
-    /// By what power of the price the error falls: below 0.
+    /// The power of the price with which the error falls; below 0.
     fn slope(&self) -> f64 {
-        // What costs a twentieth more is as good as free.
+        // A smaller increase of the price than a twentieth counts as a twentieth.
         libm::log(self.error) / libm::log(self.price).max(0.05)
     }
 }
 
-/// What a setting changes, as options of the command line; none if it changes nothing.
+/// The options of the command line that change `own` into `other`; `None` if nothing changes.
 fn sets(own: &Setting, other: &Setting) -> Option<String> {
     let strata = |setting: &Setting| setting.strata.map_or("auto".into(), |n| n.to_string());
     let keys = [

@@ -1,14 +1,15 @@
-//! Errors over a sample of pixels, and how sure they are.
+//! Errors over a sample of pixels, and their confidence intervals.
 
 use crate::random::Stream;
 
-/// Times that the sample is drawn anew.
+/// Number of times that the bootstrap draws the sample anew.
 const RESAMPLED: usize = 400;
-/// Keys these draws: of all tables the same, so that they are comparable.
+/// Key of the bootstrap's draws, the same for all tables, so that they are comparable.
 const KEY: u64 = 0xB007_57AA;
 
 /// A root mean square, with its 95 % interval: the percentile bootstrap over pixels (Efron, 1979).
-/// All are relative to the mean radiance.
+///
+/// All values are relative to the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Band {
     /// The root mean square.
@@ -20,7 +21,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// Of each pixel's mean square.
+    /// Creates the band from each pixel's mean square.
     pub(super) fn of_squares(squares: &[f64]) -> Self {
         let count = squares.len();
         if count == 0 {
@@ -45,7 +46,7 @@ impl Band {
         }
     }
 
-    /// Of the differences between two pictures, in units of `mean`.
+    /// Creates the band of the differences between the pictures `a` and `b`, in units of `mean`.
     pub(super) fn of_difference(a: &[[f64; 3]], b: &[[f64; 3]], mean: f64) -> Self {
         let square = |(a, b): (&[f64; 3], &[f64; 3])| {
             let squares = a.iter().zip(b).map(|(a, b)| ((a - b) / mean).powi(2));
@@ -59,6 +60,8 @@ impl Band {
 mod tests {
     use super::*;
 
+    /// Compares the interval's width with theory.
+    ///
     /// The mean square of n exponential variables has a relative standard deviation of 1/sqrt(n),
     /// so its root has half of that.
     #[test]

@@ -1,4 +1,4 @@
-//! What is measured on the sample of pixels, each thing once.
+//! Measurements on the sample of pixels, each made once.
 
 use super::band::Band;
 use super::error::{TradeError, first};
@@ -19,18 +19,18 @@ use qrt_core::valid::{Parameters, ValidScene};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How much is measured.
+/// The amount of work for a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Effort {
-    /// Paths of the reference: a power of two.
+    /// The reference has `2^reference_bits` paths.
     pub(super) reference_bits: u32,
-    /// Paths of the pictures that differ in depth.
+    /// Pictures that differ in depth have `2^depth_bits` paths.
     pub(super) depth_bits: u32,
-    /// Runs of an estimator for each channel of a pixel.
+    /// Number of runs of an estimator for each channel of a pixel.
     pub(super) draws: u64,
 }
 
-/// All that rows have in common.
+/// The data that rows have in common.
 pub(super) struct Bench<'a> {
     pub(super) scene: &'a ValidScene,
     pub(super) parameters: Parameters,
@@ -47,14 +47,14 @@ pub(super) struct Bench<'a> {
 
 type CircuitKey = (Sampling, u32, Comparator, Circuit);
 
-/// What a model found.
+/// The result of a model.
 #[derive(Clone)]
 struct Traced {
-    /// By pixel and channel: the mean of its paths; of the circuit's models none.
+    /// By pixel and channel: the mean of its paths; empty for the circuit's models.
     means: Means,
     /// By pixel and channel: S.
     good: Vec<[u64; 3]>,
-    /// The same by octave of the comparator.
+    /// By pixel and channel: S by octave of the comparator.
     octaves: Vec<[Octaves; 3]>,
     /// The wall time, in seconds.
     seconds: f64,
@@ -90,20 +90,20 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// That the scene as it is has a circuit.
+    /// Checks that the scene as it is has a circuit.
     pub(super) fn check(&mut self) -> Result<(), TradeError> {
         let parameters = Setting::of(&self.parameters).parameters(&self.parameters);
         let scene = self
             .scene
             .with_parameters(parameters.clone())
             .map_err(TradeError::Parameters)?;
-        // The scene's own circuit is there, or an error.
+        // For the scene's own circuit, a missing circuit is an error, so the inner result is `Ok`.
         let _ = self.built(&scene, &parameters)?;
         Real::new(&scene, self.seed)?;
         Ok(())
     }
 
-    /// Measures a row; or says why the setting is no scene, or has no circuit.
+    /// Measures a row. The inner error is the reason why the setting has no scene or no circuit.
     pub(super) fn row(&mut self, setting: Setting) -> Result<Result<Row, String>, TradeError> {
         if setting.sweep.is_rival() {
             return self.rival(setting).map(Ok);
@@ -223,7 +223,8 @@ impl<'a> Bench<'a> {
             classes,
             cost: most.call,
         };
-        // One is large, and rows of a circuit stand together, but for the scene's own.
+        // A circuit is large, and the rows of a circuit are consecutive, except those of the
+        // scene's own. The cache therefore keeps only that one and the latest.
         self.circuits.retain(|(of, _)| *of == circuit_key(&own));
         self.circuits.push((key, built.clone()));
         Ok(Ok(built))
@@ -267,7 +268,7 @@ impl<'a> Bench<'a> {
         Ok(traced)
     }
 
-    /// What the estimator says of every channel of every pixel, several times.
+    /// The estimates of every channel of every pixel, several times.
     fn estimated(
         &self,
         parameters: &Parameters,
@@ -281,7 +282,7 @@ impl<'a> Bench<'a> {
             counting: &parameters.counting,
             scales: bounds,
             noise: Noise::NONE,
-            // The first draw is the picture's own.
+            // With this seed, the first draw is that of the rendered picture.
             seed: self.seed,
             count: self.effort.draws,
             total,
@@ -306,7 +307,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The entries of these pixels.
+/// The entries of `all` at the indices `kept`.
 pub(super) fn picked<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {
     kept.iter().map(|&at| all[at].clone()).collect()
 }
@@ -314,7 +315,7 @@ pub(super) fn picked<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {
 struct Estimated {
     /// By pixel, draw and channel, in radiance.
     values: Vec<Vec<[f64; 3]>>,
-    /// Of all pixels, draws and channels.
+    /// Number of queries of all pixels, draws and channels.
     queries: u64,
     seconds: f64,
 }
@@ -344,7 +345,7 @@ fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {
     tallies.iter().map(good).collect()
 }
 
-/// E_T and the total error: of all draws, against S/N and against the limit.
+/// E_T and the total error: the differences of all draws from S/N and from the limit.
 fn drawn(estimated: &Estimated, counted: &Means, truth: &Means, mean: f64) -> [Band; 2] {
     [counted, truth].map(|other| {
         let square = |(values, other): (&Vec<[f64; 3]>, &[f64; 3])| {

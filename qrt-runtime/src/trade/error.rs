@@ -1,4 +1,4 @@
-//! Why there is no table.
+//! Errors of `qrt trade`.
 
 use crate::counting::CountingError;
 use crate::estimators::EstimatorError;
@@ -10,11 +10,11 @@ use qrt_core::syntax::Problem;
 use std::io;
 use std::path::PathBuf;
 
-/// Why there is no table.
+/// An error that leaves `qrt trade` without a table.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TradeError {
-    /// The sample of pixels is not summed, or was interrupted: rows that are finished stay.
+    /// The sum over the sample of pixels failed or was interrupted. Finished rows stay.
     #[error(transparent)]
     Sample(#[from] SampleError),
     /// The scene has no circuit.
@@ -23,16 +23,16 @@ pub enum TradeError {
     /// The sequence of paths can't be made.
     #[error(transparent)]
     Sampling(#[from] SamplingError),
-    /// The pixels can't be counted as asked.
+    /// An error of counting the pixels.
     #[error(transparent)]
     Counting(#[from] CountingError),
-    /// The estimator can't do what it is asked.
+    /// An error of the estimator.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
     /// The threads can't be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
-    /// Every pixel is black: nothing can be relative to their mean.
+    /// Every pixel is black, so errors cannot be relative to their mean.
     #[error(
         "every pixel that was tried is black: errors are relative to the picture's mean radiance, \
          which is 0"
@@ -46,16 +46,16 @@ pub enum TradeError {
     File {
         /// The file that cannot be written or read.
         path: PathBuf,
-        /// What the file system says.
+        /// The error of the file system.
         source: io::Error,
     },
-    /// Another process measures into the same table.
+    /// Another process measures and writes the same table.
     #[error("`{}` is being written by another `qrt trade`", .path.display())]
     InUse {
         /// The table's file.
         path: PathBuf,
     },
-    /// The table that is there is another's.
+    /// The existing table depends on other values, for example another scene.
     #[error(
         "`{}` is the table of another {what}: {found}, not {asked}; remove it, or name another \
          folder",
@@ -64,14 +64,14 @@ pub enum TradeError {
     Differs {
         /// The table's file.
         path: PathBuf,
-        /// What differs, such as the scene.
+        /// The name of the value that differs, for example the scene.
         what: String,
-        /// The value that the table has of it.
+        /// The value in the existing table.
         found: String,
-        /// The value that was asked for.
+        /// The requested value.
         asked: String,
     },
-    /// Two tables have different rows of one setting: at least one of them is no measurement of it.
+    /// Two tables have different rows of one setting: at least one of the rows is wrong.
     #[error(
         "`{}` and `{}` disagree about a setting that both have: {setting}; remove one of the two",
         .path.display(), .first.display()
@@ -79,12 +79,12 @@ pub enum TradeError {
     Disagree {
         /// A table's file.
         path: PathBuf,
-        /// The other's.
+        /// The other table's file.
         first: PathBuf,
         /// The setting, by its columns.
         setting: String,
     },
-    /// The table that is there cannot be read.
+    /// The existing table cannot be read.
     #[error(
         "`{}`: line {line} is no row of this table; remove the file, or name another folder",
         .path.display()
@@ -103,7 +103,7 @@ pub(super) fn first(problems: &[Problem]) -> String {
 }
 
 impl TradeError {
-    /// Whether it is the request that can't be met, rather than the job that failed.
+    /// True if the request can't be met; false if the job failed.
     pub fn is_refusal(&self) -> bool {
         !matches!(
             self,

@@ -9,16 +9,16 @@ use super::{Band, Trade};
 use qrt_core::scene::{Estimator, Sequence};
 use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
 
-/// A plot, and what is said of it.
+/// A plot and its caption.
 pub(super) struct Figure {
-    /// The name of its file, without the extension.
+    /// The name of the plot's file, without the extension.
     pub(super) name: &'static str,
     pub(super) plot: Plot,
-    /// What to see there.
+    /// The caption.
     pub(super) says: &'static str,
 }
 
-/// Places of errors in a row.
+/// Indices of errors in a row.
 pub(super) const PATHS: usize = 0;
 pub(super) const COMPARATORS: usize = 1;
 pub(super) const WIDTH: usize = 2;
@@ -26,7 +26,7 @@ pub(super) const COUNTING: usize = 3;
 pub(super) const DEPTH: usize = 4;
 pub(super) const TOTAL: usize = 5;
 
-/// What errors are called on plots.
+/// Names of the errors on plots.
 pub(super) const NAMES: [&str; 6] = [
     "paths, E_R",
     "comparators, E_C",
@@ -36,7 +36,7 @@ pub(super) const NAMES: [&str; 6] = [
     "total",
 ];
 
-/// All of them, in the page's order.
+/// All plots, in the page's order.
 pub(super) fn all(trade: &Trade) -> Vec<Figure> {
     let mut figures = vec![
         split(trade),
@@ -71,7 +71,7 @@ fn point(x: f64, band: Band) -> Point {
     }
 }
 
-/// Errors number `error` of rows, over whatever `x` says.
+/// A series of the error at index `error` of `rows`, over `x`.
 pub(super) fn series<'a>(
     name: &str,
     rows: impl Iterator<Item = &'a Row>,
@@ -167,7 +167,7 @@ fn repetitions(trade: &Trade) -> Figure {
     let mut all: Vec<Series> = Vec::new();
     let own = trade.scene().map(|row| row.setting.estimator);
     for estimator in estimators(trade, Sweep::Repetitions) {
-        // The scene's own needs no name.
+        // The scene's own estimator needs no name.
         let name = if Some(estimator) == own {
             String::new()
         } else {

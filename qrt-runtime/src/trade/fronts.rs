@@ -1,4 +1,4 @@
-//! What is not beaten: the fronts of the total error against each price.
+//! The Pareto fronts of the total error against each price.
 
 use super::figures::{Figure, TOTAL, series};
 use super::setting::Sweep;
@@ -7,18 +7,17 @@ use super::table::Row;
 use super::{Trade, pareto};
 use qrt_drawing::{Axis, Drawn, Plot, Series};
 
-/// Rows that a front may hold: counted, and of the scene's own length of paths, which is what was
-/// asked.
+/// Rows that a front may hold: counted on all pixels, with the scene's own length of paths.
 pub(super) fn candidates(trade: &Trade) -> Vec<&Row> {
     let rows = trade.rows.iter();
     let counted = |sweep: Sweep| sweep != Sweep::Depth && !sweep.leaves_lamps_out();
     rows.filter(|row| counted(row.setting.sweep)).collect()
 }
 
-/// A price of a row.
+/// A function that returns a price of a row.
 pub(super) type Price = fn(&Row) -> f64;
 
-/// What is paid: the figure's name, the title, the axis, and the price.
+/// The prices: the figure's name, the title, the axis, and the function.
 pub(super) const PRICES: [(&str, &str, &str, Price); 4] = [
     ("front-queries", "queries", "queries of a pixel", |row| {
         row.queries
@@ -40,7 +39,7 @@ pub(super) const PRICES: [(&str, &str, &str, Price); 4] = [
     ),
 ];
 
-/// The front of all rows under a price, from the cheapest on.
+/// The front of `rows` under `price`, from the cheapest row on.
 pub(super) fn front<'a>(rows: &[&'a Row], price: Price) -> Vec<&'a Row> {
     let points: Vec<(f64, f64)> = rows
         .iter()

@@ -1,4 +1,4 @@
-//! What pictures are measured against: far more paths, and far longer ones.
+//! The limits of pictures: far more paths, and far longer ones.
 
 use super::band::Band;
 use super::bench::Bench;
@@ -10,15 +10,16 @@ use crate::sample::{Means, prefix_means};
 use qrt_core::scene::{Sampling, Sequence};
 use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, ValidScene};
 
-/// Keys the reference's shifts, beside the seed.
+/// Key of the reference's shifts, combined with the seed.
 const REFERENCE: u64 = 0x5265_6665_7265_6e63;
-/// Where depths end: what one more ray brings, as a fraction of what all deeper rays bring.
+/// Pictures by depth end if one more ray changes less than this fraction of the change since the
+/// scene's own depth.
 const NEGLIGIBLE: f64 = 0.02;
-/// Depths beyond the scene's own, at most.
+/// The largest number of depths beyond the scene's own.
 const DEEPER: usize = 16;
 
 impl Bench<'_> {
-    /// The pictures' limit at so many rays: far more paths, with other shifts.
+    /// The limit of pictures with `rays` rays: the mean of far more paths, with other shifts.
     pub(super) fn reference(&mut self, rays: usize) -> Result<&Means, TradeError> {
         let at = self.references.iter().position(|(of, _)| *of == rays);
         let at = if let Some(at) = at {
@@ -32,7 +33,7 @@ impl Bench<'_> {
         Ok(&self.references[at].1)
     }
 
-    /// A net of `2^bits` paths of so many rays, without a circuit.
+    /// Parameters of a net of `2^bits` paths of `rays` rays, without a circuit.
     fn net(&self, rays: usize, bits: u32) -> Parameters {
         let mut parameters = self.parameters.clone();
         parameters.sampling = Sampling {
@@ -41,12 +42,14 @@ impl Bench<'_> {
             depths: depths(&self.parameters.sampling, rays),
             lights: self.parameters.sampling.lights,
         };
-        // Nothing is counted here, so one comparator bit will do.
+        // Nothing is counted here, so one comparator bit is enough.
         parameters.comparator.bits = 1;
         parameters
     }
 
-    /// The same that samples lamps, also where the scene does not; if it has the dimensions.
+    /// The scene of the same net with lamps sampled, even if the scene itself does not sample them.
+    ///
+    /// If the net lacks the dimensions, it samples lamps as the scene does.
     pub(super) fn lit_net(&self, rays: usize, bits: u32) -> Result<ValidScene, TradeError> {
         let own = self.net(rays, bits);
         let mut parameters = own.clone();
@@ -56,7 +59,7 @@ impl Bench<'_> {
             .map_err(TradeError::Parameters)
     }
 
-    /// Means over all paths of a scene.
+    /// Means over all paths of `scene`.
     pub(super) fn means(&self, scene: &ValidScene, key: u64) -> Result<Means, TradeError> {
         let real = Real::new(scene, self.seed ^ key)?;
         let bits = [scene.scene().sampling.path_bits];
@@ -64,7 +67,8 @@ impl Bench<'_> {
         Ok(means.pop().unwrap_or_default())
     }
 
-    /// E_D: against a length of paths beyond which almost nothing comes, on the same paths.
+    /// E_D: the difference from paths so long that more rays add almost nothing, on the same path
+    /// indices.
     pub(super) fn depth_error(&mut self, rays: usize, mean: f64) -> Result<Band, TradeError> {
         let pictures = match self.depths.take() {
             Some(pictures) => pictures,

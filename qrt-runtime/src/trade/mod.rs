@@ -1,40 +1,42 @@
-//! Speed against accuracy, measured.
+//! Measures speed against accuracy.
 //!
-//! [`trade`] varies the parameters of a scene one at a time, and estimators and queries together,
-//! renders a sample of its pixels under each setting, and writes what that cost and how far it is
-//! from the picture's limit: a table, plots and a page that shows both.
+//! [`trade`] varies the parameters of a scene one at a time, and estimators and queries together.
+//! It renders a sample of the scene's pixels under each setting. It writes the cost of each setting
+//! and its distance from the picture's limit: a table, plots and a page that shows both.
 //!
 //! # Errors
 //!
 //! Each part of a pixel's error is the difference between two pictures of the same pixels that
-//! differ in one thing only, as a root mean square over pixels and channels, relative to the mean
-//! radiance:
+//! differ in one respect only. It is a root mean square over pixels and channels, relative to the
+//! mean radiance:
 //!
 //! | | of | against |
 //! |---|---|---|
 //! | `E_R` | the exact mean over R paths | over far more paths, with other shifts |
 //! | `E_C` | S of the same paths in real arithmetic | the exact mean of these paths |
 //! | `E_W` | S of the circuit's numbers | S of the same paths and comparators in real arithmetic |
-//! | `E_T` | what the estimator says | S/N |
-//! | `E_D` | paths of D rays | paths so long that almost nothing more comes, same path indices |
-//! | total | what the estimator says | the exact mean over far more paths, of D rays |
+//! | `E_T` | the estimate | S/N |
+//! | `E_D` | paths of D rays | paths so long that more rays add almost nothing, same path indices |
+//! | total | the estimate | the exact mean over far more paths, of D rays |
 //!
-//! Far more paths sample lamps, also where the scene does not: their mean is the same, and they are
-//! less far from it. The total is measured, too: it is no sum of the others. `E_D` is not in it, for it changes with
-//! no other parameter than the length of paths. Intervals are a bootstrap's over pixels.
+//! Far more paths sample lamps, even if the scene does not: their mean is the same, and they are
+//! closer to it. The total is measured, too: it is not the sum of the others. It does not include
+//! `E_D`, which depends on no other parameter than the length of paths. Intervals are a bootstrap's
+//! over pixels.
 
 //!
 //! # Rivals
 //!
-//! `beside-rivals` is the scene's estimator on pixels that see no lamp. On the same pixels, the sweeps `random-paths` and `classical-net` are pictures that no circuit makes: means over
-//! random paths, and over all paths of a smaller net (quasi-Monte Carlo), in real arithmetic, with
-//! lamps sampled. Their `queries` are paths of a pixel, each of which brings all channels; their
-//! error is against the same limit as that of all others.
+//! `beside-rivals` is the scene's estimator on pixels that see no lamp. On the same pixels, the
+//! sweeps `random-paths` and `classical-net` are pictures without a circuit: means over random
+//! paths, and over all paths of a smaller net (quasi-Monte Carlo), in real arithmetic, with lamps
+//! sampled. Their `queries` are paths of a pixel, each of which gives all channels. Their error is
+//! against the same limit as that of all others.
 //!
 //! # The table
 //!
-//! `trade.csv` begins with a line that names what its rows depend on: version, build, scene hash,
-//! seed, pixels, quick. Its columns:
+//! `trade.csv` begins with a line that names the values that its rows depend on: version, build,
+//! scene hash, seed, pixels, quick. Its columns:
 //!
 //! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`,
 //!   `phase_bits`, `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
@@ -42,15 +44,15 @@
 //! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of
 //!   one call of the most expensive channel's oracle, as `qrt inspect` counts them (a phase
 //!   register's own qubits are not among them); `toffoli_x_queries`;
-//! * `mean`: the mean radiance, over the pixels and channels that errors are of, to which they are
-//!   relative;
+//! * `mean`: the mean radiance over the pixels and channels of the errors, which are relative to
+//!   it;
 //! * `e_r`, `e_c`, `e_w`, `e_t`, `e_d`, `e_total`, each followed by the ends of its 95 % interval
 //!   (`e_r_low`, `e_r_high`, ...);
 //! * `seconds`: wall time of tracing and counting a pixel. It alone differs from run to run;
 //! * `crc32`: the checksum of the row before it, in hexadecimal.
 //!
-//! Rows are written as they are finished, and not measured again when they are there and their
-//! checksums are right.
+//! Each row is written as soon as it is finished. A later run does not measure it again if its
+//! checksum is right.
 
 mod advice;
 mod band;
@@ -88,45 +90,46 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use table::Contents;
 
-/// What to measure, and how.
+/// Options of a measurement.
 #[derive(Clone, Copy, Default)]
 pub struct Options<'a> {
-    /// Pixels, spread over the film; all of them if it has no more. 256 unless set, 32 if quick.
+    /// Number of pixels, spread over the film; all of them if it has no more. 256 unless set, 32 if
+    /// quick.
     pub pixels: Option<u64>,
-    /// Keys the shifts of the digital net and every draw.
+    /// Key of the shifts of the digital net and of every draw.
     pub seed: u64,
-    /// Fewer settings, pixels and reference paths.
+    /// Measures fewer settings, pixels and reference paths.
     pub quick: bool,
-    /// Of the settings, dealt out one by one, those that are measured, for one of several processes:
-    /// then there is a table, and neither plots nor a page. All unless set.
+    /// The portion of the settings that this process measures; the settings are dealt out one by
+    /// one. With a portion there is a table, and neither plots nor a page. All settings unless set.
     pub portion: Portion,
-    /// Folders whose tables have rows that need not be measured again. Two tables may have the same row, and
-    /// no two different ones of a setting. What none of them has is measured.
+    /// Folders whose tables have rows that need not be measured again. Two tables may have the same
+    /// row, but not different rows of one setting. Settings that no table has are measured.
     pub parts: &'a [PathBuf],
-    /// Who does the work; told of rows.
+    /// Number of threads, a cancel flag, and a callback for progress in rows.
     pub workers: Workers<'a>,
 }
 
-/// What the measurement of a scene's parameters found.
+/// The result of measuring a scene's parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trade {
     /// The scene's name.
     pub name: String,
     /// The scene as YAML.
     pub scene_text: String,
-    /// Pixels that were rendered, and those of the film.
+    /// Number of pixels that were rendered, and number of the film's pixels.
     pub pixels: [u64; 2],
-    /// What keyed shifts and draws.
+    /// Key of shifts and draws.
     pub seed: u64,
     /// Paths of the reference: `2^reference_bits`.
     pub reference_bits: u32,
     /// All rows, in their order.
     pub rows: Vec<Row>,
-    /// Rows that an earlier run had left.
+    /// Number of rows that earlier runs had finished.
     pub resumed: usize,
-    /// Rows that it had left damaged, and that were measured again.
+    /// Number of rows that were damaged, and that were measured again.
     pub damaged: usize,
-    /// Settings that are no scene, or have no circuit, and why.
+    /// Settings that have no scene, or no circuit, and the reason.
     pub left_out: Vec<(Setting, String)>,
 }
 
@@ -136,21 +139,22 @@ impl Trade {
         self.rows.first()
     }
 
-    /// The rows about one parameter.
+    /// The rows of `sweep`.
     pub fn of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
         self.rows
             .iter()
             .filter(move |row| row.setting.sweep == sweep)
     }
 
-    /// What a reader with little time wants to know.
+    /// A summary in a few lines.
     pub fn summary(&self) -> String {
         summary::text(self)
     }
 }
 
-/// Measures a scene's parameters and writes `trade.csv`, plots and `index.html` to `folder`, which
-/// is made if it is not there. A table that an interrupted run has left is gone on with.
+/// Measures a scene's parameters and writes `trade.csv`, plots and `index.html` to `folder`.
+///
+/// Creates the folder if it does not exist, and continues the table of an interrupted run.
 ///
 /// # Errors
 /// See [`TradeError`].
@@ -211,7 +215,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     ];
     let count = pixels.len() as u64;
     let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
-    // What cannot be measured at all is told before a file is written.
+    // Reports a scene that cannot be measured before it writes a file.
     bench.check()?;
     let own = folder.join("trade.csv");
     let parts = options.parts.iter().map(|part| part.join("trade.csv"));
@@ -226,7 +230,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     table::agree(&tables, &settings)?;
     let found = std::mem::take(&mut table.found);
     table.damaged += taken.iter().map(|part| part.damaged).sum::<usize>();
-    // By setting: the first part that has its row.
+    // For each setting: the first part that has its row.
     let taken: Vec<Option<&Contents>> = (0..settings.len())
         .map(|at| taken.iter().find(|part| part.rows[at].is_some()))
         .collect();

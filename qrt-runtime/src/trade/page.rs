@@ -1,4 +1,4 @@
-//! `index.html`: tables and plots together, in one file that asks nobody for anything.
+//! `index.html`: tables and plots in one self-contained file.
 
 use super::figures::{Figure, NAMES};
 use super::fronts::{PRICES, candidates, front};
@@ -11,7 +11,7 @@ use qrt_core::inspect::grouped;
 use qrt_drawing::{coloured, escaped, style_sheet};
 use std::fmt::Write as _;
 
-/// What errors mean, as [`NAMES`].
+/// Meanings of the errors, in the order of [`NAMES`].
 const MEANINGS: [&str; 6] = [
     "their exact mean, against far more paths with other shifts",
     "the count of thresholds, against the mean of the same paths",
@@ -123,14 +123,14 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
     out
 }
 
-/// A sentence as HTML: what stands between backticks is code.
+/// Converts a sentence to HTML: text between backticks is code.
 fn marked(sentence: &str) -> String {
     let mut out = String::new();
     let mut parts = sentence.split('`').peekable();
     while let Some(words) = parts.next() {
         out.push_str(&escaped(words));
         match parts.next_if(|_| true) {
-            // One without its other is itself.
+            // A backtick without its partner stays a backtick.
             Some(code) if parts.peek().is_none() => {
                 let _ = write!(out, "`{}", escaped(code));
             }
@@ -143,12 +143,12 @@ fn marked(sentence: &str) -> String {
     out
 }
 
-/// What is wider than a phone is scrolled in its own place, by keyboard, too.
+/// The start of a box that scrolls content wider than a phone, by keyboard, too.
 fn wide(what: &str) -> String {
     format!("<div class=\"wide\" role=\"group\" aria-label=\"{what}\" tabindex=\"0\">")
 }
 
-/// The scene: its picture, if there is one, and its text.
+/// Writes the scene: its picture, if there is one, and its text.
 fn scene(out: &mut String, trade: &Trade, preview: Option<&Preview>) {
     let two = if preview.is_some() { " two" } else { "" };
     let _ = writeln!(out, "<div class=\"scene{two}\">");
@@ -187,7 +187,7 @@ fn signed(value: f64) -> String {
     }
 }
 
-/// The scene as it is.
+/// Writes the costs and errors of the scene as it is.
 fn own(out: &mut String, row: &Row) {
     let _ = writeln!(
         out,
@@ -213,7 +213,7 @@ fn own(out: &mut String, row: &Row) {
     out.push_str("</table></div>\n");
 }
 
-/// What a sweep changes.
+/// The values that `sweep` changes, as text.
 fn value(sweep: Sweep, row: &Row) -> String {
     let setting = &row.setting;
     match sweep {
@@ -273,7 +273,7 @@ fn table(out: &mut String, rows: &[&Row], name: impl Fn(&Row) -> String) {
     out.push_str("</table></div>\n");
 }
 
-/// Three digits, or none of what is nothing.
+/// A percentage with three digits; `0` if it is zero.
 fn percent(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

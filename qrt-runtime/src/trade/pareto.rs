@@ -1,7 +1,9 @@
-//! What is not beaten in both error and price.
+//! The Pareto front of error and price.
 
-/// Of points (price, error), those with no other that is at most as dear and at most as wrong, and
-/// better in one of the two; from the cheapest on. Of equal points the first one counts.
+/// Returns the indices of the points (price, error) on the Pareto front, from the cheapest on.
+///
+/// A point is on the front if no other is at most as dear and at most as wrong, and better in one
+/// of the two. Of equal points the first one counts.
 ///
 /// ```
 /// use qrt_runtime::trade::pareto;

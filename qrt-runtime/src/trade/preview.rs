@@ -1,4 +1,4 @@
-//! The scene as a small picture, for the page.
+//! A small picture of the scene, for the page.
 
 use super::Options;
 use super::bench::{Bench, Effort};
@@ -7,28 +7,29 @@ use crate::image::{Encoding, Image, Metadata, write_to};
 use crate::sample;
 use qrt_core::valid::ValidScene;
 
-/// Its longer side, at most.
+/// The largest length of the picture's longer side, in pixels.
 const SIDE: u32 = 96;
-/// Paths of all its pixels together: what a second is enough for.
+/// Number of paths of all the picture's pixels together, which take about a second.
 const PATHS: u64 = 1 << 19;
-/// The mean that it is shown with: a picture's middle grey.
+/// The mean of the exposed picture: middle grey.
 const GREY: f64 = 0.18;
 
 /// A picture of the scene.
 pub(super) struct Preview {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// It has every pixel of the film whose column and row are multiples of it.
+    /// The picture has the film's pixels whose column and row are multiples of `step`.
     pub(super) step: u32,
     pub(super) path_bits: u32,
-    /// In stops.
+    /// The exposure, in stops.
     pub(super) exposure: f64,
     pub(super) png: Vec<u8>,
 }
 
 impl Preview {
-    /// What the exact estimator says of some of the film's pixels, over few paths that sample lamps.
-    /// None where no PNG can be made.
+    /// Renders the exact mean of some of the film's pixels, over few paths that sample lamps.
+    ///
+    /// The result is `None` if no PNG can be made.
     pub(super) fn of(
         scene: &ValidScene,
         options: &Options<'_>,
@@ -75,13 +76,13 @@ impl Preview {
         }))
     }
 
-    /// Its address in a page that asks nobody for anything.
+    /// The picture as an address that contains it, so that the page needs no other file.
     pub(super) fn address(&self) -> String {
         format!("data:image/png;base64,{}", base64(&self.png))
     }
 }
 
-/// Bytes in base 64 (RFC 4648), as addresses hold them.
+/// Encodes bytes in base 64 (RFC 4648), as addresses hold them.
 fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
@@ -100,7 +101,7 @@ fn base64(bytes: &[u8]) -> String {
 mod tests {
     use super::*;
 
-    /// The examples of RFC 4648, section 10.
+    /// Checks the examples of RFC 4648, section 10.
     #[test]
     fn bytes_are_letters_as_the_standard_says() {
         for (bytes, letters) in [

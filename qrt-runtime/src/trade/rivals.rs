@@ -1,5 +1,6 @@
-//! Counting beside the rivals that people use for the same picture: random paths, and the same net
-//! run classically. Both sample lamps.
+//! Compares counting with two classical rivals: random paths, and the same net run classically.
+//!
+//! Both rivals sample lamps.
 
 use super::bench::{Bench, picked};
 use super::error::TradeError;
@@ -19,13 +20,13 @@ use qrt_drawing::{Axis, Drawn, Fit, Plot};
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// The rivals, and what they are called.
+/// The rivals and their names.
 const RIVALS: [(Sweep, &str); 2] = [
     (Sweep::RandomPaths, "random paths"),
     (Sweep::ClassicalNet, "the net, classically"),
 ];
 
-/// What is said of them on the page.
+/// The page's text about the rivals.
 pub(super) const ABOUT: &str = "Counting estimates a mean over paths that a classical renderer can take as well. Random paths \
      are the plain path tracer: their error falls as one over the square root of their number. \
      Averaging all paths of a smaller net with a random shift is quasi-Monte Carlo, and falls \
@@ -38,8 +39,10 @@ pub(super) const ABOUT: &str = "Counting estimates a mean over paths that a clas
      far a random path is off is measured, and the rest is the law of chance. Mitsuba 3 is not \
      asked here: `cargo bench --bench equal_error` compares with it.";
 
-/// The sampling of rivals and of what all are measured against: the scene's own where it samples
-/// lamps, and else with a point on a lamp for each ray that leaves a surface.
+/// The sampling of rivals and of the reference.
+///
+/// It is the scene's own if that samples lamps. Otherwise it has, in addition, a point on a lamp
+/// for each ray that leaves a surface.
 pub(super) fn lit(sampling: &Sampling) -> Sampling {
     let mut lit = sampling.clone();
     if (0..sampling.depths.len()).any(|depth| sampling.light(depth).is_some()) {
@@ -52,14 +55,16 @@ pub(super) fn lit(sampling: &Sampling) -> Sampling {
     lit
 }
 
-/// Random paths of a pixel that tell how far one of them is off.
+/// Number of random paths of a pixel that measure the error of one path.
 const RANDOM: u64 = 1 << 13;
-/// Nets of a size that are tried, if so many fit into the largest.
+/// Number of nets of one size that are tried, if the largest net has room for them.
 const NETS: u64 = 16;
 
 impl Bench<'_> {
-    /// The pixels that a setting's errors are about. Beside rivals those that see no lamp, if any of
-    /// them sees something: where they do, its edge is all that would be measured.
+    /// Indices of the pixels that a setting's errors are about.
+    ///
+    /// Beside rivals these are the pixels that see no lamp, unless all of them are black. In a
+    /// pixel that sees a lamp, the lamp's edge would be the whole error.
     pub(super) fn kept(&mut self, setting: Setting) -> Result<Vec<usize>, TradeError> {
         let all = 0..self.pixels.len();
         if setting.sweep.leaves_lamps_out() {
@@ -73,7 +78,7 @@ impl Bench<'_> {
         Ok(all.collect())
     }
 
-    /// Measures a rival: so many paths, averaged classically.
+    /// Measures a rival: the classical mean of `2^path_bits` paths.
     pub(super) fn rival(&mut self, setting: Setting) -> Result<Row, TradeError> {
         let kept = self.kept(setting)?;
         let truth = picked(self.reference(setting.depths)?, &kept);
@@ -82,7 +87,7 @@ impl Bench<'_> {
         let start = Instant::now();
         let paths = 1 << setting.path_bits;
         let (squares, traced) = if setting.sweep == Sweep::RandomPaths {
-            // Their errors are independent, and their variances add up.
+            // The errors of random paths are independent, so their variances add up.
             let scene = self.lit_net(setting.depths, 0)?;
             let real = Real::new(&scene, self.seed)?.monte_carlo(RANDOM);
             let squares = squares_of(&real, &pixels, &truth, 1, &self.workers)?;
@@ -114,7 +119,7 @@ impl Bench<'_> {
     }
 }
 
-/// By pixel, the mean square over channels of what means over `paths` paths at a time are off by.
+/// For each pixel, the mean square error over channels of means over `paths` paths at a time.
 fn squares_of(
     real: &Real,
     pixels: &[[u32; 2]],
@@ -153,30 +158,31 @@ fn squares_of(
     pixels.par_iter().zip(truth).map(pixel).collect()
 }
 
-/// A price and the error that it buys.
+/// A price and the error at that price.
 type Point = (f64, f64);
 
-/// Who needs less for the same error, where both were measured.
+/// The comparison of counting with a rival, at errors that both reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
-    /// Counting, below this error.
+    /// Counting needs less, below this error.
     Wins {
         below: f64,
-        /// The least error that both reach, and how many times fewer queries counting needs there.
+        /// The smallest error that both reach, and the factor by which counting needs fewer queries
+        /// there.
         least: f64,
         fewer: f64,
     },
-    /// The rival, at least at the least error that both reach.
+    /// The rival needs less, at least at the smallest error that both reach.
     Loses {
         least: f64,
-        /// How many times more queries counting needs there.
+        /// The factor by which counting needs more queries there.
         more: f64,
     },
     /// There is no error that both reach.
     Apart,
 }
 
-/// What is paid for an error, between the points of a front on logarithmic axes.
+/// The price of `error`, interpolated between the points of a front on logarithmic axes.
 fn price(front: &[Point], error: f64) -> Option<f64> {
     let at = front.iter().position(|point| point.1 <= error)?;
     let (p, e) = front[at];
@@ -188,7 +194,7 @@ fn price(front: &[Point], error: f64) -> Option<f64> {
     Some(q * libm::pow(p / q, part))
 }
 
-/// Compares what counting and a rival need, from their least common error upwards.
+/// Compares the prices of counting and of a rival, from their smallest common error upwards.
 pub(super) fn verdict(counting: &[Point], rival: &[Point]) -> Verdict {
     let fronts = [counting, rival].map(|points| {
         let best = pareto(points).into_iter().map(|at| points[at]);
@@ -245,7 +251,7 @@ fn percent(error: f64) -> String {
     format!("{:.3} %", 100.0 * error)
 }
 
-/// How a rival's error falls over its paths.
+/// The slope of a rival's error over its paths, on logarithmic axes.
 fn slope(points: &[Point]) -> Option<f64> {
     let logarithms = points
         .iter()
@@ -253,7 +259,7 @@ fn slope(points: &[Point]) -> Option<f64> {
     Some(Fit::of(logarithms.filter(|(_, e)| e.is_finite()))?.slope)
 }
 
-/// A line for each rival: who needs less.
+/// One line for each rival: its comparison with counting.
 pub(super) fn sentences(trade: &Trade) -> Vec<String> {
     let points = |rows: &mut dyn Iterator<Item = &Row>, error: usize| -> Vec<Point> {
         rows.map(|row| (row.queries, row.errors[error].value))
@@ -268,7 +274,7 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
     RIVALS.map(line).to_vec()
 }
 
-/// All three, over what they need.
+/// The plot of counting and both rivals: errors over queries or paths.
 pub(super) fn figure(trade: &Trade) -> Figure {
     let mut ours = trade.of(Sweep::BesideRivals).peekable();
     let name = ours.peek().map(|row| row.setting.estimator);
@@ -276,7 +282,7 @@ pub(super) fn figure(trade: &Trade) -> Figure {
     let price = |row: &Row| row.queries;
     let mut ours = series(name, ours, price, COUNTING, Drawn::Fit);
     let rivals = RIVALS.map(|(sweep, name)| {
-        // By its own name: the other is a part of sentences, and too long for a legend.
+        // The net's own name: the name in `RIVALS` is part of sentences, and too long for a legend.
         let net = Sequence::DigitalNet.name();
         let name = if sweep == Sweep::ClassicalNet {
             net
@@ -285,7 +291,7 @@ pub(super) fn figure(trade: &Trade) -> Figure {
         };
         series(name, trade.of(sweep), price, TOTAL, Drawn::Fit)
     });
-    // Counting by random paths is like random paths, but not the same.
+    // `monte-carlo` has the style of random paths, but is another series.
     ours.style = ours.style.map(|style| free(style, &rivals));
     let mut all = vec![ours];
     all.extend(rivals);
@@ -313,7 +319,8 @@ mod tests {
             .collect()
     }
 
-    /// Against random paths, sigma/sqrt(n), counting with c/Q wins below sigma^2/c.
+    /// Checks that counting with an error of c/Q wins against random paths, sigma/sqrt(n), below
+    /// sigma^2/c.
     #[test]
     fn the_verdict_follows_the_curves() {
         let counting = law(30.0, -1.0);
@@ -338,7 +345,7 @@ mod tests {
         let said = sentence("the net", lost);
         assert!(said.contains("does not win: 30.0 times as many"), "{said}");
 
-        // Where counting is ahead at all errors it wins below the largest.
+        // If counting is ahead at all errors, it wins below the largest.
         let ahead = verdict(&law(0.1, -1.0), &law(1.0, -0.5));
         assert!(matches!(ahead, Verdict::Wins { below, .. } if (below - 0.1).abs() < 1e-9));
         let apart = verdict(&[(1.0, 2.0)], &[(1.0, 1.0)]);

@@ -1,4 +1,4 @@
-//! What stands in a row: one value of every parameter.
+//! A row's setting: one value of every parameter.
 
 use crate::named::named;
 use crate::render::Model;
@@ -10,7 +10,7 @@ use qrt_core::scene::{
 use qrt_core::valid::{Parameters, most_strata};
 
 named! {
-    /// Which parameter a row is about.
+    /// The parameter that a row is about.
     pub enum Sweep {
         /// The scene as it is.
         Scene = "scene",
@@ -18,7 +18,7 @@ named! {
         Counting = "counting",
         /// Repetitions of a smaller register.
         Repetitions = "repetitions",
-        /// How many strata of the comparator are counted one by one.
+        /// The number of strata of the comparator that are counted on their own.
         Strata = "strata",
         /// The number of comparators.
         Comparator = "comparator",
@@ -26,28 +26,28 @@ named! {
         Fraction = "fraction",
         /// Paths of either sequence.
         Paths = "paths",
-        /// When registers are uncomputed, and how the nearest hit is kept.
+        /// The rules for uncomputing registers and for keeping the nearest hit.
         Circuit = "circuit",
-        /// What traces the paths.
+        /// The model that traces the paths.
         Model = "model",
         /// The length of paths.
         Depth = "depth",
-        /// The scene's estimator on the pixels on which it is held against rivals.
+        /// The scene's estimator on the pixels of the comparison with rivals.
         BesideRivals = "beside-rivals",
-        /// A rival of counting: so many random paths, averaged.
+        /// A rival of counting: the mean of random paths.
         RandomPaths = "random-paths",
-        /// A rival of counting: all paths of a smaller net, averaged.
+        /// A rival of counting: the mean of all paths of a smaller net.
         ClassicalNet = "classical-net",
     }
 }
 
 impl Sweep {
-    /// Whether its rows are of pictures that no circuit makes.
+    /// True if the sweep's rows are pictures without a circuit.
     pub fn is_rival(self) -> bool {
         matches!(self, Self::RandomPaths | Self::ClassicalNet)
     }
 
-    /// Whether its errors are those of pixels that see no lamp, where there are any.
+    /// True if the sweep's errors are those of pixels that see no lamp, if there are any.
     pub(super) fn leaves_lamps_out(self) -> bool {
         self == Self::BesideRivals || self.is_rival()
     }
@@ -58,30 +58,30 @@ impl Sweep {
 pub struct Setting {
     /// The parameter that the row is about.
     pub sweep: Sweep,
-    /// What traces the paths.
+    /// The model that traces the paths.
     pub model: Model,
-    /// How good indices are counted.
+    /// The estimator that counts good indices.
     pub estimator: Estimator,
     /// t, of T = 2^t phases.
     pub phase_bits: u32,
-    /// B, the runs of the counting circuit.
+    /// B, the number of runs of the counting circuit.
     pub repetitions: u32,
-    /// Strata of the comparator that are counted one by one; none: as many as what is measured
-    /// suggests.
+    /// Number of strata of the comparator that are counted on their own. With `None`, the first
+    /// measurements determine it.
     pub strata: Option<u32>,
-    /// How path indices become points.
+    /// The sequence that turns path indices into points.
     pub sequence: Sequence,
     /// R = 2^path_bits.
     pub path_bits: u32,
     /// D, the rays of a path.
     pub depths: usize,
-    /// Fraction bits of every number.
+    /// Number of fraction bits of every number.
     pub fraction: u32,
     /// C = 2^comparator_bits.
     pub comparator_bits: u32,
-    /// When registers are uncomputed.
+    /// The rule for uncomputing registers.
     pub uncompute: Uncompute,
-    /// How the nearest hit is kept.
+    /// The rule for keeping the nearest hit.
     pub nearest: Nearest,
 }
 
@@ -103,7 +103,7 @@ pub(super) const KEY: [&str; 13] = [
 ];
 
 impl Setting {
-    /// The parameters as the scene has them, on the fixed machine: the circuit's own numbers.
+    /// The scene's own parameters, on the fixed machine: the circuit's own numbers.
     pub(super) fn of(parameters: &Parameters) -> Self {
         Self {
             sweep: Sweep::Scene,
@@ -122,7 +122,7 @@ impl Setting {
         }
     }
 
-    /// Its values, as in [`KEY`].
+    /// The values of the setting, in the order of [`KEY`].
     pub(super) fn values(&self) -> [String; KEY.len()] {
         [
             self.sweep.name().to_owned(),
@@ -141,7 +141,7 @@ impl Setting {
         ]
     }
 
-    /// As many strata as its estimator and its comparator have.
+    /// Number of strata, limited by the estimator and the comparator.
     fn strata(&self) -> Option<u32> {
         if self.estimator.counts_strata() {
             let most = most_strata(self.comparator_bits);
@@ -162,7 +162,7 @@ impl Setting {
             repetitions: self.repetitions,
             estimator: self.estimator,
             strata: self.strata(),
-            // All others use their queries.
+            // All other rows use up their queries.
             error: (scene.counting.error).filter(|_| self.sweep == Sweep::Scene),
             ..scene.counting
         };
@@ -180,7 +180,8 @@ impl Setting {
                 depths,
                 lights: scene.lights,
             },
-            // The scene's own distribution of its bits, or an even one of others.
+            // A lattice of the scene's own size has the scene's distribution of bits; others an
+            // even one.
             Sequence::ProductLattice
                 if scene.sequence == self.sequence
                     && scene.path_bits == self.path_bits
@@ -202,11 +203,13 @@ impl Setting {
     }
 }
 
-/// Bits of a coordinate where the scene's are those of a lattice, or where it has none.
+/// Number of bits of a coordinate, if the scene has a lattice or lacks the coordinate.
 pub(super) const FINE: u32 = 16;
 
-/// Coordinates of a net: the scene's own, or fine ones where the scene has a lattice; paths beyond
-/// the scene's length go on as its last ray does.
+/// Coordinates of a net with `count` rays.
+///
+/// They are the scene's own, or fine ones if the scene has a lattice. Rays beyond the scene's
+/// length repeat its last ray.
 pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
     let last = scene.depths.last().cloned();
     let more = std::iter::repeat_n(last, count.saturating_sub(scene.depths.len())).flatten();
@@ -224,7 +227,7 @@ pub(super) fn depths(scene: &Sampling, count: usize) -> Vec<DepthSampling> {
     depths
 }
 
-/// A lattice of so many bits, the first dimensions first.
+/// Distributes the bits of `lattice` evenly over its dimensions, the rest over the first ones.
 fn even(lattice: &mut Sampling) {
     let squares: Vec<_> = lattice.squares().collect();
     let (bits, coordinates) = (lattice.path_bits, 2 * squares.len() as u32);

@@ -1,10 +1,12 @@
-//! One colour and one mark for one thing, in every plot.
+//! Colours and marks of series, the same in every plot.
 
 use qrt_core::scene::Estimator;
 use qrt_drawing::{STYLES, Series};
 
-/// The style ([`Series::style`]) of what comes in several plots, by its name: estimators, sequences
-/// of paths, parts of the error, and what they are compared with. None of anything else.
+/// The style ([`Series::style`]) of a series that several plots share, by its name.
+///
+/// Names are those of estimators, sequences of paths, parts of the error, and the series that they
+/// are compared with. `None` for any other name.
 ///
 /// ```
 /// use qrt_runtime::trade::style;
@@ -29,8 +31,8 @@ pub fn style(name: &str) -> Option<usize> {
     })
 }
 
-/// An estimator's style; none of the one that measures nothing. Styles 7 to 13 are 0 to 6 with hollow
-/// marks. No estimator has the style of the net, and no two have the same.
+/// An estimator's style; `None` for `exact`, which measures nothing. Styles 7 to 13 are 0 to 6 with
+/// hollow marks. No estimator has the style of the net, and no two have the same.
 fn style_of(estimator: Estimator) -> Option<usize> {
     Some(match estimator {
         Estimator::Exact => return None,
@@ -50,12 +52,12 @@ fn style_of(estimator: Estimator) -> Option<usize> {
     })
 }
 
-/// The style of the same colour, hollow where the other is filled.
+/// The style of the same colour, with hollow marks in place of filled ones and the reverse.
 pub(super) fn hollow(style: usize) -> usize {
     (style + STYLES / 2) % STYLES
 }
 
-/// `wanted`, or the first style that none of a plot's series has.
+/// `wanted`, or the first style that none of `others` has.
 pub(super) fn free(wanted: usize, others: &[Series]) -> usize {
     let taken = |style: &usize| others.iter().any(|series| series.style == Some(*style));
     let mut choice = std::iter::once(wanted).chain(0..STYLES);
@@ -68,7 +70,7 @@ mod tests {
     use qrt_core::scene::Sequence;
     use qrt_drawing::Drawn;
 
-    /// In one plot stand all estimators, or both sequences beside random paths.
+    /// Checks the series that share a plot: all estimators, or both sequences and random paths.
     #[test]
     fn what_stands_in_one_plot_is_told_apart() {
         let estimators = Estimator::ALL.iter().filter(|e| **e != Estimator::Exact);

@@ -1,4 +1,4 @@
-//! The measured, in a few lines.
+//! A summary of the measurements, in a few lines.
 
 use super::figures::{COUNTING, TOTAL, estimators};
 use super::fronts::{PRICES, candidates, front};
@@ -9,7 +9,7 @@ use super::{advice, rivals};
 use qrt_drawing::Fit;
 use std::fmt::Write as _;
 
-/// Lines of a front that are shown.
+/// Number of lines of a front that are shown.
 const SHOWN: usize = 6;
 
 pub(super) fn text(trade: &Trade) -> String {
@@ -72,7 +72,7 @@ pub(super) fn text(trade: &Trade) -> String {
     out
 }
 
-/// By estimator: the slope of its error over its queries.
+/// For each estimator: the slope of its error over its queries.
 fn slopes(trade: &Trade) -> Vec<String> {
     let slope = |name| {
         let rows = trade.of(Sweep::Counting);
@@ -87,7 +87,7 @@ fn slopes(trade: &Trade) -> Vec<String> {
     names.filter_map(slope).collect()
 }
 
-/// A setting by what matters of it.
+/// A setting as text, without its sweep, model and number of depths.
 pub(super) fn differs(setting: &Setting) -> String {
     format!(
         "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, uncompute: {}, nearest: {}",

@@ -1,15 +1,18 @@
-//! Which settings are measured: around the scene's own, one parameter at a time, and every
-//! estimator with every number of queries.
+//! The settings that are measured.
+//!
+//! They vary the scene's parameters one at a time, and combine every estimator with every number of
+//! queries.
 
 use super::setting::{Setting, Sweep};
 use crate::render::Model;
 use qrt_core::scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
 use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
 
-/// Registers that are halved before they are repeated: as many as make up for up to 32 repetitions.
+/// Number of times that a register is halved before it is repeated, to make up for up to 32
+/// repetitions.
 const HALVED: u32 = 4;
 
-/// The rows, in their order. `quick` leaves out every other value, and what takes longest.
+/// The rows, in their order. `quick` leaves out every other value, and those that take longest.
 pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
     let scene = Setting::of(parameters);
     let step = if quick { 2 } else { 1 };
@@ -45,7 +48,7 @@ pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
     rows
 }
 
-/// The scene's estimator, or the default one, as it is held against rivals.
+/// Settings of the scene's estimator, or of the default one, for the comparison with rivals.
 fn beside_rivals(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item = Setting> {
     let own = match scene.estimator {
         Estimator::Exact => Counting::default().estimator,
@@ -55,9 +58,9 @@ fn beside_rivals(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item
     rows.filter(move |row| row.estimator == own)
 }
 
-/// Classical pictures of more and more paths.
+/// Classical pictures with growing numbers of paths.
 fn rivals(scene: Setting, step: usize) -> impl Iterator<Item = Setting> {
-    // How the error of random paths goes on is known.
+    // Random paths go further, because the law of their error is known.
     let sweeps = [(Sweep::RandomPaths, 8), (Sweep::ClassicalNet, 0)];
     sweeps.into_iter().flat_map(move |(sweep, more)| {
         let bits = (0..=most_paths(&scene) + more).step_by(step);
@@ -93,7 +96,7 @@ fn counting(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item = Se
     })
 }
 
-/// Repetitions of a smaller register: by the scene's estimator, if it counts, and by the paper's.
+/// Repetitions of a smaller register: for the scene's estimator, if it counts, and for the paper's.
 fn repetitions(scene: Setting) -> impl Iterator<Item = Setting> {
     let mut repeated = vec![Estimator::Paper];
     if ![Estimator::Paper, Estimator::Exact].contains(&scene.estimator) {
@@ -109,7 +112,7 @@ fn repetitions(scene: Setting) -> impl Iterator<Item = Setting> {
     })
 }
 
-/// Strata of the comparator, as many as it has, by an estimator that counts them.
+/// Numbers of strata that the comparator allows, for an estimator that counts them.
 fn strata(scene: Setting) -> impl Iterator<Item = Setting> {
     let estimator = if scene.estimator.counts_strata() {
         scene.estimator
@@ -140,7 +143,7 @@ fn paths(scene: Setting, step: usize) -> impl Iterator<Item = Setting> {
     })
 }
 
-/// When registers are uncomputed, and how the nearest hit is kept.
+/// Settings of the circuit: combinations of `uncompute` and `nearest`.
 fn circuits(scene: Setting) -> impl Iterator<Item = Setting> {
     [Nearest::Running, Nearest::Paper]
         .into_iter()

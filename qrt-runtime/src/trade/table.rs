@@ -1,8 +1,8 @@
-//! `trade.csv`: one row a setting, written as each is finished.
+//! `trade.csv`: one row per setting, written as soon as it is finished.
 //!
-//! The first line names what the rows depend on; a table of anything else is refused. The second
-//! names the columns, which the module above describes. The last of them is the CRC-32 of the row
-//! before it: a row that fails it is damaged, and left out.
+//! The first line names the values that the rows depend on; a table with other values is refused.
+//! The second names the columns, which the parent module describes. The last column is the CRC-32
+//! of the row before it: a row with a wrong CRC-32 is damaged, and left out.
 
 use super::band::Band;
 use super::error::TradeError;
@@ -16,12 +16,12 @@ use std::path::{Path, PathBuf};
 /// Errors of a row, in their order.
 pub const ERRORS: [&str; 6] = ["e_r", "e_c", "e_w", "e_t", "e_d", "e_total"];
 
-/// Columns of figures before and after those of errors.
+/// Columns of figures before those of errors.
 const FIGURES: [&str; 5] = ["queries", "toffoli", "qubits", "toffoli_x_queries", "mean"];
-/// How many columns the table has, without that of sums.
+/// Number of columns of the table, without that of checksums.
 const COLUMNS: usize = KEY.len() + FIGURES.len() + 3 * ERRORS.len() + 1;
 
-/// A finished row of the table: one setting, and what was measured of it.
+/// A finished row of the table: one setting and its measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// The setting that the row is about.
@@ -34,7 +34,7 @@ pub struct Row {
     pub mean: f64,
     /// The errors in the order of [`ERRORS`], relative to the mean.
     pub errors: [Band; ERRORS.len()],
-    /// Wall time of a pixel.
+    /// Wall time of a pixel, in seconds.
     pub seconds: f64,
 }
 
@@ -89,7 +89,7 @@ impl Row {
     }
 }
 
-/// Six digits; enough to be read, and the same from every run.
+/// A number with six digits: enough to be read, and the same from every run.
 fn number(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
@@ -98,37 +98,37 @@ fn number(value: f64) -> String {
     }
 }
 
-/// What the rows of a table depend on, by name.
+/// Names and values that the rows of a table depend on.
 pub(super) type Header = Vec<(&'static str, String)>;
 
-/// A table that grows.
+/// A table that rows are appended to.
 pub(super) struct Table {
-    /// Locked against others who measure.
+    /// The table's file, locked against other processes.
     file: DiskFile,
     path: PathBuf,
     /// The first two lines.
     head: String,
-    /// By setting: its line.
+    /// For each setting: its line.
     lines: Vec<Option<String>>,
-    /// By setting: the row that an earlier run has left.
+    /// For each setting: the row that an earlier run has left.
     pub(super) found: Vec<Option<Row>>,
-    /// Rows that were damaged.
+    /// Number of rows that were damaged.
     pub(super) damaged: usize,
 }
 
-/// What a table's file holds.
+/// The contents of a table's file.
 pub(super) struct Contents {
-    /// By setting: its line.
+    /// For each setting: its line.
     lines: Vec<Option<String>>,
-    /// By setting: its row.
+    /// For each setting: its row.
     pub(super) rows: Vec<Option<Row>>,
-    /// Rows that are damaged.
+    /// Number of damaged rows.
     pub(super) damaged: usize,
-    /// Where the whole lines end, if there are rows or could be.
+    /// Offset of the end of the complete lines, if the first two are complete.
     end: Option<u64>,
 }
 
-/// The table of these settings at `path`, which is left as it is.
+/// Reads the table of `settings` at `path`, without changing it.
 pub(super) fn read(
     path: &Path,
     header: &Header,
@@ -138,7 +138,7 @@ pub(super) fn read(
     Contents::read(&bytes, path, header, settings)
 }
 
-/// That these tables have the same row of a setting wherever two have one, but for the time that it took.
+/// Checks that no two tables have different rows of a setting, apart from the time.
 pub(super) fn agree(
     tables: &[(&Path, &[Option<Row>])],
     settings: &[Setting],
@@ -171,7 +171,7 @@ impl Contents {
         header: &Header,
         settings: &[Setting],
     ) -> Result<Self, TradeError> {
-        // What is no text is damaged.
+        // Bytes that are not text count as damage.
         let text = String::from_utf8_lossy(bytes);
         // A last line without its end was cut off while it was written.
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
@@ -211,8 +211,7 @@ impl Contents {
 }
 
 impl Table {
-    /// Goes on with the table of these settings at `path`, or begins it. Damaged rows are taken out
-    /// of it.
+    /// Opens the table of `settings` at `path`, or creates it. Removes damaged rows from it.
     pub(super) fn open(
         path: &Path,
         header: &Header,
@@ -248,7 +247,7 @@ impl Table {
         Ok(table)
     }
 
-    /// Writes a finished row, so that it is durable; and gives it back as it will be read again.
+    /// Writes a finished row durably, and returns it as it will be read again.
     pub(super) fn append(&mut self, at: usize, row: &Row) -> Result<Row, TradeError> {
         let line = row.line();
         let summed = format!("{line},{:08x}", crc32fast::hash(line.as_bytes()));
@@ -256,7 +255,7 @@ impl Table {
         Ok(Row::read(row.setting, &line).unwrap_or(*row))
     }
 
-    /// Writes the row that another table has of a setting, as it stands there.
+    /// Writes the row of setting `at` as it is in another table, and returns it.
     pub(super) fn take_over(
         &mut self,
         at: usize,
@@ -276,7 +275,7 @@ impl Table {
         self.keep_name()
     }
 
-    /// Makes the table again if its file was removed, perhaps with its folder.
+    /// Rewrites the table if its file was removed, perhaps with its folder.
     fn keep_name(&mut self) -> Result<(), TradeError> {
         let named = self.file.has_its_name().map_err(failed(&self.path))?;
         if !named && !self.path.exists() {
@@ -287,7 +286,7 @@ impl Table {
         Ok(())
     }
 
-    /// Puts rows that were measured again in their places.
+    /// Moves rows that were measured again to their places.
     pub(super) fn finish(mut self) -> Result<(), TradeError> {
         if self.damaged > 0 {
             self.rewrite()?;
@@ -295,7 +294,7 @@ impl Table {
         self.keep_name()
     }
 
-    /// Writes the table anew, and goes on behind it.
+    /// Rewrites the table, and continues at its end.
     fn rewrite(&mut self) -> Result<(), TradeError> {
         let failed = failed(&self.path);
         let mut text = self.head.clone();
@@ -303,7 +302,7 @@ impl Table {
             text.push_str(line);
             text.push('\n');
         }
-        // Locked before it has its name, as the other is until then.
+        // The new file is locked before it takes the name; until then the old one is locked.
         self.file = replaced(&self.path, |out| out.write_all(text.as_bytes())).map_err(&failed)?;
         self.go_on_at(text.len() as u64).map_err(&failed)
     }
@@ -322,7 +321,7 @@ fn failed(path: &Path) -> impl Fn(io::Error) -> TradeError + use<> {
     }
 }
 
-/// A row without its sum, if that is right.
+/// A row without its checksum, or `None` if the checksum is wrong.
 pub(super) fn checked(line: &str) -> Option<&str> {
     let (row, sum) = line.rsplit_once(',')?;
     let right = format!("{:08x}", crc32fast::hash(row.as_bytes()));
@@ -349,7 +348,7 @@ fn columns() -> String {
     format!("{key},{figures},{errors},seconds,crc32")
 }
 
-/// That the first line of a table names the same things.
+/// Checks that the first line of a table has the values of `header`.
 fn check(path: &Path, found: &str, header: &Header) -> Result<(), TradeError> {
     let Some(parts) = found.strip_prefix("# qrt trade: ") else {
         return Err(TradeError::Unreadable {

@@ -1,4 +1,4 @@
-//! What a table must hold.
+//! Tests of tables and their page.
 
 use super::table::Table;
 use super::*;
@@ -37,7 +37,7 @@ fn quick() -> Options<'static> {
     }
 }
 
-/// A table's lines without their seconds and sums.
+/// A table's lines without their seconds and checksums.
 fn timeless(folder: &Scratch) -> Vec<String> {
     let text = std::fs::read_to_string(folder.path("trade.csv")).unwrap();
     let without = |line: &str| Some(line.rsplitn(3, ',').nth(2)?.to_owned());
@@ -127,13 +127,13 @@ fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     let net = net.filter(|row| row.setting.sequence == Sequence::DigitalNet);
     let net: Vec<f64> = net.map(|row| row.errors[paths].value).collect();
     assert!(falls(&net), "{net:?}");
-    // Machines: numbers of finite width are no part of the real model, and the circuit's are the
-    // fixed machine's.
+    // The real model has no numbers of finite width, and the gates' numbers are those of the fixed
+    // machine.
     let [real, fixed, gates] = error(Sweep::Model, width)[..] else {
         panic!("three models");
     };
     assert!(real == 0.0 && fixed > 0.0 && fixed == gates);
-    // Two rays see the lamp's light; no third is brighter than the last.
+    // Depths are the scene's two and two more.
     assert_eq!(measured.of(Sweep::Depth).count(), 4);
 }
 
@@ -147,7 +147,7 @@ fn the_total_is_measured_against_the_limit() {
     assert!(total <= r + c + w + t && total > 0.3 * (r * r + c * c + w * w + t * t).sqrt());
     assert_eq!(row.queries, 3.0 * 31.0);
     assert_eq!(row.toffoli_x_queries(), 93.0 * row.cost.toffoli as f64);
-    // What `render` makes of the same pixels is what was measured.
+    // The cost is the one that an inspection of the same scene finds.
     let parameters = row.setting.parameters(&scene(LIT).parameters());
     let same = scene(LIT).with_parameters(parameters).unwrap();
     let inspected = qrt_core::inspect::Inspection::most_expensive(&same, None).unwrap();
@@ -161,7 +161,7 @@ fn an_interrupted_table_is_gone_on_with_to_the_same_table() {
     let all = trade(&scene(LIT), &whole.path(""), &quick()).unwrap();
     let text = std::fs::read_to_string(whole.path("trade.csv")).unwrap();
     assert_eq!(all.resumed, 0);
-    // After some rows, in the middle of one.
+    // Cuts the table off after some rows, in the middle of one.
     let end = text.match_indices('\n').nth(20).unwrap().0 + 30;
     std::fs::write(cut.path("trade.csv"), &text[..end]).unwrap();
     let rest = trade(&scene(LIT), &cut.path(""), &quick()).unwrap();
@@ -169,7 +169,7 @@ fn an_interrupted_table_is_gone_on_with_to_the_same_table() {
     assert_eq!(timeless(&cut), timeless(&whole));
     let names = folder_names(&whole);
     assert_eq!(names, folder_names(&cut));
-    // What does not tell of seconds has the same bytes.
+    // Plots without seconds have the same bytes.
     for name in names
         .iter()
         .filter(|name| std::path::Path::new(name).extension() == Some("svg".as_ref()))
@@ -209,7 +209,7 @@ fn portions_of_a_table_make_the_table_and_what_they_lack_is_measured() {
     assert!(timeless(merged) == timeless(whole));
     assert_eq!(folder_names(merged), folder_names(whole));
 
-    // One of the two alone, with a row damaged: the rest is measured.
+    // With one of the two parts alone, and a damaged row in it, the rest is measured.
     let table = second.path("trade.csv");
     let text = std::fs::read_to_string(&table).unwrap();
     let last = text.trim_end().rfind(',').unwrap();
@@ -222,7 +222,7 @@ fn portions_of_a_table_make_the_table_and_what_they_lack_is_measured() {
     let made = trade(&scene(LIT), &again.path(""), &one).unwrap();
     assert_eq!((made.resumed, made.damaged), (all.rows.len() / 2 - 1, 1));
     assert!(timeless(&again) == timeless(whole));
-    // Of another scene, or none.
+    // A table of another scene and a missing table are refused.
     let other = scene(&LIT.replace("radiance: [3", "radiance: [4"));
     let error = trade(&other, &Scratch::new().path(""), &one)
         .unwrap_err()
@@ -246,7 +246,7 @@ fn a_damaged_row_is_measured_again_wherever_it_is_damaged() {
     let third = text.match_indices('\n').nth(1).unwrap().0 + 1;
     let path = damaged.path("trade.csv");
     let (mut bytes, mut hurt) = (text.clone().into_bytes(), std::collections::BTreeSet::new());
-    // A digit here, a comma there, and what is no text: in a figure, in a setting, in a sum.
+    // Writes a digit, a comma or a byte that is not text into figures, settings and checksums.
     for (number, byte) in [(3, b'7'), (9, b','), (14, 0xff), (22, b'0'), (23, b'x')] {
         let start = text.match_indices('\n').nth(number + 1).unwrap().0 + 1;
         let end = start + text[start..].find('\n').unwrap();
@@ -299,7 +299,8 @@ fn a_table_that_is_a_link_is_left_alone() {
 
 #[test]
 fn a_table_that_lost_its_name_is_nobodys() {
-    // Of many that begin at a time one measures, though its file is made, replaced and removed meanwhile.
+    // Several threads open the table at a time. Only one holds it, although its file is created,
+    // replaced and removed meanwhile.
     use std::sync::atomic::{AtomicU32, Ordering};
     let folder = Scratch::new();
     let path = folder.path("trade.csv");
@@ -313,7 +314,8 @@ fn a_table_that_lost_its_name_is_nobodys() {
                         opened => {
                             let table = opened.unwrap();
                             assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0);
-                            // Once the name is gone, another may hold a file of that name.
+                            // Once the file is removed, another thread may hold a new file of that
+                            // name.
                             holders.fetch_sub(1, Ordering::SeqCst);
                             if finished.fetch_add(1, Ordering::SeqCst).is_multiple_of(2) {
                                 std::fs::remove_file(&path).unwrap();
@@ -383,7 +385,7 @@ fn the_table_of_something_else_is_refused() {
     refused("is black", &quick(), &black);
 }
 
-/// What is advised is a row of the table, and what it says of it is so.
+/// Checks that the advised change is a row of the table, with the error that the advice states.
 #[test]
 fn the_advice_is_a_change_that_was_measured() {
     let folder = Scratch::new();
@@ -414,7 +416,7 @@ fn the_advice_is_a_change_that_was_measured() {
         "{most}"
     );
     assert!(total < 0.9 * measured.rows[0].errors[5].value);
-    // Nothing is better than what has no error.
+    // Without an error there is no advice.
     for band in &mut measured.rows[0].errors {
         band.value = 0.0;
     }

@@ -1,57 +1,57 @@
-//! Why the models are not compared.
+//! Errors of comparing the models.
 
 use crate::plan::PlanError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::OracleError;
 use qrt_core::sampling::SamplingError;
 
-/// Why the models are not compared. What they do wrong is no error, but in the report.
+/// An error that prevents a comparison of the models. Differences between models are in the report.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// More portions than there are pixels to check.
+    /// There are more portions than pixels to check.
     #[error("{pixels} pixels can't be dealt out to {count} portions: ask for fewer")]
     Portions {
-        /// How many portions.
+        /// Number of portions.
         count: u32,
-        /// Pixels that are checked.
+        /// Number of pixels to check.
         pixels: u64,
     },
-    /// No parameters keep the accuracy that the scene asks for.
+    /// No parameters keep the scene's accuracy.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The scene has no circuit.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// The sequence of paths can't be made.
+    /// The sequence of paths cannot be created.
     #[error(transparent)]
     Sampling(#[from] SamplingError),
-    /// More paths than a 64-bit word counts.
+    /// The number of paths overflows 64 bits.
     #[error(
         "{pixels} pixels of 2^{path_bits} paths are more than 2^64 paths, which no machine traces \
          in a lifetime: lower `sampling.path_bits`, or the pixels"
     )]
     TooManyPaths {
-        /// Pixels to be compared.
+        /// Number of pixels to compare.
         pixels: u64,
-        /// Paths of each, as a power of two.
+        /// Number of paths of a pixel, as a power of two.
         path_bits: u32,
     },
-    /// The threads can't be started.
+    /// The threads cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
     /// The check was cancelled before it was finished.
     #[error("interrupted after {finished} of {pixels} pixels")]
     Interrupted {
-        /// Pixels that were compared.
+        /// Number of pixels compared so far.
         finished: u64,
-        /// Pixels that were to be.
+        /// Number of pixels to compare.
         pixels: u64,
     },
 }
 
 impl VerifyError {
-    /// Whether it is the request that can't be met, rather than the job that failed.
+    /// Returns true if the request can't be met; false if the job failed.
     pub fn is_refusal(&self) -> bool {
         match self {
             Self::Plan(error) => error.is_refusal(),

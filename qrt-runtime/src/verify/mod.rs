@@ -1,10 +1,10 @@
-//! The models against each other, path by path.
+//! Compares the models with each other, path by path.
 //!
-//! * `fixed` and `gates` must agree bit for bit: in every path's colour, and in how many
-//!   thresholds it exceeds.
+//! * `fixed` and `gates` must agree bit for bit: in every path's colour, and in the number of
+//!   thresholds that it exceeds.
 //! * The gates machine must return every qubit but those of the path index to zero, and flip the
 //!   phases of exactly the good indices.
-//! * A count must be the number of thresholds below the colour, counted from their definition.
+//! * A count must be the number of thresholds below the colour, computed from their definition.
 //! * `fixed` and `real` differ by E_W, the error of a finite width: measured, pixel by pixel.
 
 mod error;
@@ -24,25 +24,26 @@ use qrt_core::valid::ValidScene;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Paths of a pixel that are compared at a time.
+/// Number of paths of a pixel that are compared at a time.
 const RUN: u64 = 1 << 14;
 
-/// Runs of paths whose findings are held at a time.
+/// Number of runs of paths whose results are in memory at a time.
 const HELD: u64 = 256;
 
-/// Mismatches that are reported one by one.
+/// The largest number of mismatches that are reported one by one.
 const SHOWN: usize = 8;
 
-/// What to verify, and how.
+/// Options of a check.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// How many pixels, spread over the film; all of them if it has no more.
+    /// Number of pixels, spread over the film; all of them if it has no more.
     pub pixels: u64,
-    /// Of these, dealt out one by one, those that are checked; all unless set.
+    /// The portion of these pixels that is checked; pixels are dealt to portions one by one. All
+    /// unless set.
     pub portion: Portion,
-    /// Keys the shifts of the digital net.
+    /// The key of the shifts of the digital net.
     pub seed: u64,
-    /// Who does the work; told of paths.
+    /// The threads that do the work, and the callback for progress, in paths.
     pub workers: Workers<'a>,
 }
 
@@ -74,59 +75,60 @@ pub struct Mismatch {
     pub thresholds: i64,
 }
 
-/// What the check of a scene's circuit found.
+/// The result of the check of a scene's circuit.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Pixels, as columns and rows.
+    /// The checked pixels, as columns and rows.
     pub pixels: Vec<[u32; 2]>,
-    /// Paths compared; with a defect, paths that would have been.
+    /// Number of paths compared; with a defect, number of paths that should have been compared.
     pub paths: u64,
-    /// The oracles of the pixels' classes, one a channel, and what a call of each costs alone. The
-    /// circuit that is run has those of three channels, which share compute and uncompute. Empty if
-    /// the circuit was given.
+    /// The oracles of the pixels' classes, one for each channel, and the cost of a call of each
+    /// alone. The circuit that runs has the oracles of all three channels, which share compute and
+    /// uncompute. Empty if the caller gave the circuit.
     pub oracles: Vec<OracleCost>,
-    /// Qubits of the circuit that is run: it computes all three channels at once, compares and flips
+    /// Qubits of the circuit that runs: it computes all three channels at once, compares and flips
     /// each, and uncomputes.
     pub qubits: u32,
     /// Gates of that circuit.
     pub gates: usize,
     /// Fraction bits of every number.
     pub fraction: u32,
-    /// How many (path, channel) pairs disagree.
+    /// Number of (path, channel) pairs on which the models disagree.
     pub mismatched: u64,
-    /// The first few of them.
+    /// The first mismatches, at most 8.
     pub mismatches: Vec<Mismatch>,
-    /// What the circuit did wrong, if it did.
+    /// The defect of the circuit, if it has one.
     pub defect: Option<Defect>,
-    /// The model that shows the defect; none without one.
+    /// The model that shows the defect; `None` without a defect.
     pub defect_model: Option<Model>,
-    /// Per channel: the mean radiance of the pixels, by the real machine. This and what follows is
-    /// 0 if there is a defect.
+    /// The mean radiance of the pixels per channel, by the real machine. This and the following
+    /// figures are 0 if there is a defect.
     pub mean: [f64; 3],
-    /// Per channel: E_W, the root mean square over pixels of fixed less real.
+    /// E_W per channel: the root mean square over pixels of fixed minus real.
     pub width_error: [f64; 3],
-    /// Per channel: the greatest difference of a pixel, in radiance.
+    /// The largest difference of a pixel per channel, in radiance.
     pub greatest: [f64; 3],
     /// Fraction of (path, channel) pairs whose colours differ by more than a hundredth of the
-    /// scale: paths that met something else.
+    /// scale: paths that hit different faces in the two models.
     pub parted: f64,
 }
 
 impl Report {
-    /// Whether all is as it must be: no mismatch, and no defect.
+    /// Returns whether the check passed: no mismatch, and no defect.
     pub fn holds(&self) -> bool {
         self.mismatched == 0 && self.defect.is_none()
     }
 
-    /// The report of all portions of a check, each with the report of its own.
+    /// Combines the reports of all portions of a check.
     ///
-    /// Pixels, paths and mismatches add up, means are those over all pixels, root mean squares are pooled,
-    /// and of what is greatest, of qubits and of gates the largest counts. Empty without reports.
+    /// Pixels, paths and mismatches add up. Means are those over all pixels, and root mean squares
+    /// are pooled. Of largest differences, qubits and gates, the largest is taken. Empty without
+    /// reports.
     pub fn pooled(portions: impl IntoIterator<Item = Self>) -> Self {
         portions.into_iter().reduce(Self::and).unwrap_or_default()
     }
 
-    /// E_W of all channels in units of the mean of all; none if nothing is bright.
+    /// E_W of all channels in units of the mean of all; `None` if that mean is 0.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.width_error.iter().map(|e| e * e).sum();
         let mean: f64 = self.mean.iter().sum();
@@ -134,11 +136,12 @@ impl Report {
     }
 }
 
-/// Runs a scene on all three machines; one that asks for an accuracy with the parameters that are
+/// Runs a scene on all three machines. A scene with an accuracy runs with the parameters that are
 /// chosen for it.
 ///
 /// # Errors
-/// A scene without a circuit, and an interruption. What the machines find is in the report.
+/// If the scene has no circuit, or the check is interrupted. Differences and defects of the
+/// machines are in the report.
 pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, VerifyError> {
     let planning = plan::Options {
         workers: options.workers,
@@ -149,7 +152,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     let film = [scene.scene().film.width, scene.scene().film.height];
     let chosen = chosen(film, options)?;
     let classes = PixelClasses::new(scene);
-    // Each pixel by the circuit of its class.
+    // Each pixel runs on the circuit of its class.
     let mut whole: Option<Report> = None;
     for &class in classes.present() {
         let mine = |pixel: &[u32; 2]| classes.of(*pixel) == class;
@@ -170,10 +173,10 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     Ok(whole.unwrap_or_default())
 }
 
-/// The pixels that [`verify`] checks of a scene, portion by portion in the order of the film.
+/// Returns the pixels that [`verify`] checks: those of the portion, in the order of the film.
 ///
 /// # Errors
-/// More portions than pixels.
+/// If there are more portions than pixels.
 pub fn pixels(scene: &ValidScene, options: &Options<'_>) -> Result<Vec<[u32; 2]>, VerifyError> {
     chosen(
         [scene.scene().film.width, scene.scene().film.height],
@@ -181,7 +184,7 @@ pub fn pixels(scene: &ValidScene, options: &Options<'_>) -> Result<Vec<[u32; 2]>
     )
 }
 
-/// As [`verify`], on circuits that are given, such as ones that were tampered with.
+/// As [`verify`], on given circuits, for example modified ones.
 ///
 /// # Errors
 /// As [`verify`].
@@ -196,7 +199,7 @@ pub fn verify_parts(
     verify_pixels(scene, &real, oracle, parts, pixels, options)
 }
 
-/// The pixels that are checked.
+/// Returns the pixels to check.
 fn chosen(film: [u32; 2], options: &Options<'_>) -> Result<Vec<[u32; 2]>, VerifyError> {
     let area = u64::from(film[0]) * u64::from(film[1]);
     let all = spread(film, options.pixels.clamp(1, area));
@@ -258,7 +261,8 @@ fn verify_pixels(
 }
 
 impl Report {
-    /// This and that of other pixels, whose circuit may be another: of the two, the larger counts.
+    /// Combines the reports of two sets of pixels. Their circuits may differ; the larger size is
+    /// taken.
     fn and(mut self, other: Self) -> Self {
         let share = |report: &Self| report.pixels.len() as f64;
         let (a, b) = (share(&self), share(&other));
@@ -289,7 +293,7 @@ impl Report {
         self
     }
 
-    /// Compares all paths of all pixels, in runs.
+    /// Compares all paths of all pixels, run by run.
     fn compare(&mut self, trio: &Trio<'_>, workers: &Workers<'_>) -> Result<(), VerifyError> {
         workers.report(Progress::Started {
             total: self.paths,
@@ -325,7 +329,7 @@ impl Report {
                     Ok(found) => pixel.add(found),
                     Err(defect) => {
                         self.set_defect(defect);
-                        // Of some of the pixels, they would be of none.
+                        // Sums over only some of the pixels would not be means.
                         [self.mean, self.width_error, self.greatest] = [[0.0; 3]; 3];
                         self.parted = 0.0;
                         return Ok(());
@@ -342,12 +346,12 @@ impl Report {
         Ok(())
     }
 
-    /// Takes in a defect, with the model that shows it.
+    /// Records a defect, and the model that shows it.
     fn set_defect(&mut self, (model, defect): (Model, Defect)) {
         (self.defect, self.defect_model) = (Some(defect), Some(model));
     }
 
-    /// Takes in a finished pixel of so many paths.
+    /// Adds a finished pixel with `paths` paths.
     fn take(&mut self, found: Found, paths: u64) {
         for c in 0..3 {
             let real = found.real[c] / paths as f64;

@@ -1,4 +1,4 @@
-//! A run of paths on all three machines.
+//! Compares a run of paths on all three machines.
 
 use super::{Mismatch, SHOWN};
 use crate::machines::{Defect, OracleMachine, Real};
@@ -8,7 +8,7 @@ use qrt_core::scene::ComparatorAt;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-/// Sums over paths of a pixel.
+/// Sums over the paths of one pixel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
     pub(super) real: [f64; 3],
@@ -19,7 +19,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Takes in the next run.
+    /// Adds the next run.
     pub(super) fn add(&mut self, next: Self) {
         for c in 0..3 {
             self.real[c] += next.real[c];
@@ -31,13 +31,13 @@ impl Found {
     }
 }
 
-/// Adds mismatches to those that are reported one by one, up to their greatest number.
+/// Adds mismatches to those that are reported one by one, up to [`SHOWN`] of them.
 pub(super) fn show(shown: &mut Vec<Mismatch>, more: Vec<Mismatch>) {
     let room = SHOWN.saturating_sub(shown.len());
     shown.extend(more.into_iter().take(room));
 }
 
-/// The three machines, made ready for one scene.
+/// The three machines for one scene.
 pub(super) struct Trio<'a> {
     pub(super) oracle: &'a Oracle,
     pub(super) real: &'a Real,
@@ -48,10 +48,10 @@ pub(super) struct Trio<'a> {
 }
 
 impl Trio<'_> {
-    /// Compares paths of a pixel.
+    /// Compares the paths `ids` of a pixel.
     ///
     /// # Errors
-    /// A defect, with the model that shows it.
+    /// A defect, and the model that shows it.
     pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, (Model, Defect)> {
         let mut real: [Vec<f64>; 3] = Default::default();
         self.real.trace_range(&[pixel], ids.clone(), |block| {
@@ -78,7 +78,7 @@ impl Trio<'_> {
     ) -> Result<(), Defect> {
         let limits = self.real.stage().limit();
         for (channel, (colours, limit)) in colours.iter().zip(limits).enumerate() {
-            // Nor is NaN.
+            // A NaN is outside, too.
             let inside = |&colour: &f64| colour >= 0.0 && colour <= limit;
             let Some(lane) = colours.iter().position(|colour| !inside(colour)) else {
                 continue;
@@ -150,8 +150,8 @@ impl Trio<'_> {
         found
     }
 
-    /// `#{y < 2^c : x > (y + s) / 2^c}` for the colour `x 2^-fraction`, s being 1/2 or 0: in exact
-    /// integers, by bisection.
+    /// `#{y < 2^c : x > (y + s) / 2^c}` for the colour `x 2^-fraction`, with s = 1/2 for midpoints
+    /// and 0 otherwise. It is computed in exact integers, by bisection.
     fn thresholds(&self, x: i64) -> i64 {
         let bits = self.oracle.comparator_bits();
         let half = i128::from(self.at == ComparatorAt::Midpoints);
@@ -171,7 +171,7 @@ impl Trio<'_> {
     }
 }
 
-/// Every path's counts and colours.
+/// The counts and colours of every path.
 #[derive(Default)]
 struct Columns {
     good: [Vec<i64>; 3],

@@ -15,10 +15,10 @@ use std::time::{Duration, Instant};
 /// profile may have both assertions and optimisation.
 const UNOPTIMISED: bool = matches!(env!("QRT_OPT_LEVEL").as_bytes(), b"0");
 
-/// Measured time before a job's duration is estimated.
+/// The time to measure before a job's duration is estimated.
 const SAMPLE: Duration = Duration::from_secs(1);
 
-/// Estimated duration of a job from which on the note is worth its lines.
+/// The shortest estimated duration of a job for which the note is printed.
 const LONG: Duration = Duration::from_secs(10);
 
 /// Runs `work` with `workers`. In an unoptimised build that is not `quiet`, a long job prints the
@@ -34,15 +34,15 @@ pub(crate) fn noting<T>(
     }
     let tell = |duration| {
         TOLD.call_once(|| {
-            // Without a standard error there is no one to tell.
+            // Without a standard error the note cannot be shown, so errors are ignored.
             let _ = io::stderr().write_all(note(duration).as_bytes());
         });
     };
     watching(workers, tell, work)
 }
 
-/// Runs `work` with `workers`, whose progress is also used to estimate the duration of the job:
-/// each report that makes it a long one calls `tell` with the estimate.
+/// Runs `work` with `workers`, whose progress is also used to estimate the duration of the job.
+/// Each report after which that estimate is long calls `tell` with it.
 fn watching<T>(
     workers: &Workers<'_>,
     tell: impl Fn(Duration) + Sync,
@@ -72,7 +72,7 @@ struct Pace {
 }
 
 impl Pace {
-    /// Takes in `progress`, which was reported `elapsed` after the start. Returns the estimated
+    /// Adds `progress`, which was reported `elapsed` after the start. Returns the estimated
     /// duration of the whole job if it is long.
     fn after(&self, progress: Progress, elapsed: Duration) -> Option<Duration> {
         let more = match progress {
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_long_job_is_known_by_the_pace_of_its_first_second() {
         let pace = paced(1_000, 0);
-        // Too early to judge.
+        // It is too early for an estimate.
         assert_eq!(pace.after(Progress::Finished(10), SECOND / 2), None);
         // 20 paths of 1,000 in two seconds.
         let duration = pace.after(Progress::Finished(10), 2 * SECOND);
@@ -132,10 +132,10 @@ mod tests {
     fn a_short_job_is_not_worth_a_note() {
         let pace = paced(1_000, 0);
         assert_eq!(pace.after(Progress::Finished(200), SECOND), None);
-        // What is left of a long job is short where an earlier run has done the rest.
+        // The rest of a long job is short if an earlier run has done most of it.
         let pace = paced(1_000_000, 999_000);
         assert_eq!(pace.after(Progress::Finished(200), SECOND), None);
-        // A job that is finished needs no advice.
+        // A finished job prints no note.
         let pace = paced(10, 0);
         assert_eq!(pace.after(Progress::Finished(10), 60 * SECOND), None);
     }
@@ -174,7 +174,7 @@ mod tests {
             7
         });
         assert_eq!((given, reports.into_inner()), (7, 2));
-        // A million of what takes a second.
+        // One path took a second, and there are a million.
         let durations = durations.into_inner().unwrap();
         assert!(matches!(durations[..], [duration] if duration >= 1_000_000 * SAMPLE));
     }

@@ -1,24 +1,25 @@
-//! A render, as far as files see it, in which every operation fails once, and the power at any time.
+//! A render's file operations, with a fault at each operation in turn, or a power cut at any of
+//! them.
 
 use super::*;
 use crate::replace_file::replace_file;
 
-/// All tiles of a picture, in their order.
+/// All tiles of a picture, row by row.
 fn picture() -> Vec<Tile> {
     let places = (1..5).flat_map(|y| (2..7).map(move |x| (x, y)));
     places.map(|(x, y)| tile(x, y, 1, 1)).collect()
 }
 
-/// The picture's bytes.
+/// The bytes of the picture, independent of the order of `tiles`.
 fn bytes(tiles: &[Tile]) -> Vec<u8> {
     let mut tiles = tiles.to_vec();
     tiles.sort_by_key(|tile| (tile.y, tile.x));
     tiles.iter().flat_map(Tile::encode).collect()
 }
 
-/// Renders the picture into `folder`, as the command does: what the checkpoint has is taken, the rest
-/// appended, a part of each tile before it, and the checkpoint removed when the picture is safe. Every
-/// fourth tile is made durable.
+/// Renders the picture into `folder`, as the command does: takes the tiles of the checkpoint,
+/// appends the others, each with a part before it, and removes the checkpoint when the picture is
+/// safe. Syncs after every fourth tile.
 fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
     let path = folder.path("p.png.qrt-partial");
     let there = resume && path.exists();
@@ -59,13 +60,13 @@ fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
     }
 }
 
-/// That the folder holds the old picture or the new one.
+/// Checks that the folder holds the old picture or the new one.
 fn whole(folder: &Scratch, old: &[u8]) {
     let found = fs::read(folder.path("p.png")).unwrap();
     assert!(found == old || found == bytes(&picture()), "half a picture");
 }
 
-/// That a later run with `--resume` makes the picture, and leaves nothing else.
+/// Checks that a later run with `--resume` makes the picture, and leaves no other file.
 fn goes_on(folder: &Scratch) {
     job(folder, true).unwrap();
     assert_eq!(fs::read(folder.path("p.png")).unwrap(), bytes(&picture()));
@@ -75,7 +76,7 @@ fn goes_on(folder: &Scratch) {
 #[test]
 fn whichever_operation_fails_it_is_told_and_the_render_goes_on_to_the_same_bytes() {
     let mut failed = std::collections::BTreeSet::new();
-    // From the beginning, and from a checkpoint that was torn.
+    // Once from the beginning, once from a torn checkpoint.
     for resume in [false, true] {
         for which in 0.. {
             let folder = Scratch::new();
@@ -100,7 +101,7 @@ fn whichever_operation_fails_it_is_told_and_the_render_goes_on_to_the_same_bytes
                 break;
             };
             failed.insert(*operation);
-            // A file to be made is first looked for.
+            // A new file is first looked for with `Open`, and a failure of that may do no harm.
             let harmless = *operation == Operation::Open && !resume;
             if !harmless || result.is_err() {
                 let error = result.unwrap_err().to_string();
@@ -140,7 +141,7 @@ fn whenever_the_power_is_cut_the_render_goes_on_to_the_same_bytes() {
         let folder = Scratch::new();
         fs::write(folder.path("p.png"), "old").unwrap();
         let strict = draw.below(2) == 0;
-        // Again and again, until it is through.
+        // Cut and resume, up to three times.
         for cuts in 0..3 {
             let at = draw.below(operations as u64) as usize;
             let watched = Watched::new(&folder.path(""), Plan::Cut(at));

@@ -1,4 +1,4 @@
-//! Draws follow the distribution that they are drawn from.
+//! Tests that draws follow their distribution.
 
 use qrt_core::scene::Window;
 
@@ -8,7 +8,7 @@ use crate::random::Stream;
 
 const WINDOWS: [Window; 2] = [Window::Rect, Window::Sine];
 
-/// (good, total): both ends, on the grid, and on every kind of offset.
+/// (good, total): both ends, phases on the grid, and phases at every kind of offset.
 const CASES: [(u64, u64); 8] = [
     (0, 5),
     (5, 5),
@@ -41,8 +41,7 @@ fn every_outcome_of_a_small_register_comes_as_often_as_it_should() {
     }
 }
 
-/// Signed distances from the peak in bins that widen by powers of two. The tail's bins add up a
-/// smooth function, so their probabilities are differences of its integral.
+/// Compares signed distances from the peak, in bins that widen by powers of two.
 #[test]
 fn tails_of_a_large_register_are_as_heavy_as_they_should_be() {
     for bits in [18, 29, 40] {
@@ -62,7 +61,8 @@ fn tails_of_a_large_register_are_as_heavy_as_they_should_be() {
                     (26 + level * distance.signum()) as usize
                 };
                 let mut expected = vec![0.0; 53];
-                // Bins up to 2^14 by adding up, the last ones by what is left.
+                // Distances below 2^14 are added up. The outermost bins take the remaining
+                // probability.
                 let reach = (1_i64 << 14) - 1;
                 for distance in -reach..=reach {
                     let p = found.probability((peak + distance) as u64);
@@ -76,7 +76,8 @@ fn tails_of_a_large_register_are_as_heavy_as_they_should_be() {
                 for _ in 0..200_000 {
                     counts[bin(sampler.sample(&mut stream) as i64 - peak)] += 1;
                 }
-                // The two far bins may be uneven where the peak is not in the middle.
+                // The two outermost bins differ if the peak is not in the middle, so they are
+                // merged.
                 counts[52] += std::mem::take(&mut counts[0]);
                 expected[52] += std::mem::take(&mut expected[0]);
                 counts.rotate_right(1);
@@ -87,8 +88,9 @@ fn tails_of_a_large_register_are_as_heavy_as_they_should_be() {
     }
 }
 
-/// The rejection's own region, magnified: draws outside of the lobe against their conditional
-/// probabilities, of the sine window too, where they are rare.
+/// Compares the draws outside of the lobe with their conditional probabilities.
+///
+/// The sampler draws these by rejection. For the sine window they are rare.
 #[test]
 fn outcomes_beyond_the_lobe_have_their_conditional_distribution() {
     for (window, draws) in [(Window::Rect, 300_000), (Window::Sine, 3_000_000)] {

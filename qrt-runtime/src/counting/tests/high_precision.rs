@@ -1,4 +1,4 @@
-//! The distribution against an independent big-float, and against its definition as a sum.
+//! Compares the distribution with independent high-precision arithmetic and with its definition.
 
 use astro_float_num::{BigFloat, Consts, RoundingMode};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use crate::counting::PhaseDistribution;
 use crate::counting::distribution::Phase;
 use crate::counting::kernel::Register;
 
-/// Bits: T theta takes 80 of them at T = 2^40 and squares cancel twice that near theta = 0.
+/// Precision in bits. T theta takes 80 bits at T = 2^40; squares cancel twice that near theta = 0.
 const P: usize = 384;
 const RM: RoundingMode = RoundingMode::ToEven;
 const WINDOWS: [Window; 2] = [Window::Rect, Window::Sine];
@@ -58,7 +58,7 @@ impl Exact {
         x.cos(P, RM, &mut self.consts)
     }
 
-    /// The textbook forms, without any care: the precision takes it.
+    /// The textbook formulas. The precision makes up for their cancellation.
     fn kernel(&mut self, x: &BigFloat) -> BigFloat {
         let size = self.size.clone();
         let one = int(1);
@@ -75,7 +75,8 @@ impl Exact {
             }
             Window::Sine => {
                 let points = size.add(&one, P, RM);
-                // 0/0 half a step off the grid (T = 2, a quarter of the indices): a step aside.
+                // Half a step off the grid (T = 2, a quarter of the indices) the quotient is 0/0,
+                // so the angle is moved slightly.
                 let turn = turn.add(&BigFloat::from_f64(1e-50, P), P, RM);
                 let omega = turn.mul(&int(2), P, RM).div(&size, P, RM);
                 let step = self.pi.div(&points, P, RM);
@@ -101,7 +102,7 @@ impl Exact {
         float(&near.add(&far, P, RM))
     }
 
-    /// Compares the peak, its neighbours, and outcomes all the way to both ends.
+    /// Compares the peak, its neighbours, and outcomes up to both ends.
     fn check(good: u64, total: u64, bits: u32, window: Window) {
         let mut exact = Self::new(good, total, bits, window);
         let found = PhaseDistribution::new(good, total, bits, window).unwrap();
@@ -150,7 +151,7 @@ fn extremes_of_good_and_total_hold_at_every_register_size() {
     }
 }
 
-/// S next to N sin^2(pi j/T): T theta within 1e-9 of an integer, and not on it.
+/// Checks S next to N sin^2(pi j/T), where T theta is within 1e-9 of an integer but not on it.
 #[test]
 fn phases_a_hair_off_the_grid_hold() {
     for (bits, total) in [
@@ -192,7 +193,7 @@ fn phases_a_hair_off_the_grid_hold() {
     }
 }
 
-/// Half a step off the grid, where the sine window's closed form is 0/0.
+/// Checks phases half a step off the grid, where the sine window's closed form is 0/0.
 #[test]
 fn phases_half_a_step_off_the_grid_hold() {
     for bits in [4_u32, 12, 24, 40] {
@@ -213,7 +214,8 @@ fn phases_half_a_step_off_the_grid_hold() {
     }
 }
 
-/// The definition: |sum_j w_j exp(2 pi i j (y - T theta)/T)|^2 / T, term by term.
+/// The probability by its definition, |sum_j w_j exp(2 pi i j (y - T theta)/T)|^2 / T, term by
+/// term.
 fn by_definition(theta: f64, bits: u32, window: Window, y: u64) -> f64 {
     let size = 1_u64 << bits;
     let kernel = |x: f64| {
@@ -305,9 +307,11 @@ fn all_outcomes_sum_to_one() {
     }
 }
 
-/// Where there are too many outcomes to add up: 2^15 on either side of the peak, and beyond them
-/// the tails' integrals. A sum over unit cells of a function as smooth as `sin(f)^2 csc^2` differs
-/// from its integral by its slope over 24, here below 1e-14; the sine window's tail is below it.
+/// Adds 2^15 outcomes on either side of the peak to the integrals of the tails beyond them.
+///
+/// There are too many outcomes to add all. A sum over unit cells of a function as smooth as
+/// `sin(f)^2 csc^2` differs from its integral by its slope over 24, here below 1e-14. The tail of
+/// the sine window is below that, too.
 #[test]
 fn peak_and_tails_of_large_registers_sum_to_one() {
     let reach = 1_u64 << 15;
@@ -318,7 +322,8 @@ fn peak_and_tails_of_large_registers_sum_to_one() {
                 let register = Register::new(bits, window);
                 let phase = Phase::of(good, total, &register);
                 let (cell, f) = (phase.cell, phase.offset);
-                // Small terms first; the other phase's part is taken out with its kernel.
+                // Adds small terms first. The mirrored phase's part is only compared with its
+                // bound.
                 let mut sum = 0.0;
                 for k in (0..=reach).rev() {
                     sum += register.weight(k as i64, f);
@@ -350,9 +355,10 @@ fn peak_and_tails_of_large_registers_sum_to_one() {
     }
 }
 
-/// Reading one bit less of a rectangular register is reading a smaller one:
-/// `K_T(k) + K_T(k + T/2) = K_{T/2}(k)`. Down from 2^40 this carries the sum to where it is added
-/// up term by term.
+/// Checks that a rectangular register without its top bit is a smaller register.
+///
+/// The identity is `K_T(k) + K_T(k + T/2) = K_{T/2}(k)`. It reduces the sum at 2^40 to sizes at
+/// which the outcomes are added one by one.
 #[test]
 fn dropping_the_top_bit_gives_the_smaller_register() {
     for bits in 16..=40_u32 {

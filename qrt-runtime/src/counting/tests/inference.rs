@@ -1,4 +1,4 @@
-//! What inference promises: the true maximum, and the bounds of the literature.
+//! Tests of inference: the true maximum, and the bounds of the literature.
 
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ fn window() -> impl Strategy<Value = Window> {
     prop_oneof![Just(Window::Rect), Just(Window::Sine)]
 }
 
-/// Every S, one by one.
+/// The likeliest S and its ln likelihood, by trying every S.
 fn brute(outcomes: &[u64], total: u64, bits: u32, window: Window) -> (u64, f64) {
     let mut best = (0, f64::NEG_INFINITY);
     for good in 0..=total {
@@ -46,7 +46,7 @@ fn same_maximum(outcomes: &[u64], total: u64, bits: u32, window: Window) {
         assert_eq!(value, f64::NEG_INFINITY);
         return;
     };
-    // Where roundings tie two values of S, either will do.
+    // If rounding makes two values of S equal, either is accepted.
     assert!(
         found.good == good || (found.ln_likelihood - value).abs() <= 1e-12 * (1.0 + value.abs()),
         "{found:?}, not S = {good} with {value}: {outcomes:?} N={total} t={bits} {window:?}"
@@ -67,7 +67,7 @@ proptest! {
         same_maximum(&outcomes, total, bits, window);
     }
 
-    /// Not what any one theta would give: several peaks, gaps and ties.
+    /// Outcomes that no single theta would give, with several peaks, gaps and ties.
     #[test]
     fn the_likeliest_count_is_found_for_arbitrary_outcomes(
         total in 1..=600_u64, bits in 1..=9_u32,
@@ -92,7 +92,7 @@ proptest! {
         let found = maximum_likelihood(&outcomes, total, bits, window).unwrap();
         let value = |good| ln_likelihood(&outcomes, good, total, bits, window).unwrap();
         let slack = 1e-9 * (1.0 + found.ln_likelihood.abs());
-        // The truth is a candidate like any other.
+        // The true S is a candidate, too.
         prop_assert!(value(good) <= found.ln_likelihood + slack);
         let step = (total >> bits).max(1);
         for distance in [1, 2, 3, step, 3 * step, 10 * step] {
@@ -103,7 +103,7 @@ proptest! {
     }
 }
 
-/// The walk down from the last outcome, past cells without an integer.
+/// A walk down from the last outcome, past cells without an integer.
 #[test]
 fn the_walk_from_the_last_outcome_goes_down() {
     same_maximum(&[0, 32, 15, 32], 478, 6, Window::Rect);
@@ -115,7 +115,7 @@ fn neighbouring_peaks_of_one_cell_are_told_apart() {
     same_maximum(&[4, 2, 2, 2, 0, 0], 591, 3, Window::Sine);
 }
 
-/// Bayes' rule with a uniform prior, by hand: ratios of products of probabilities.
+/// Compares with Bayes' rule for a uniform prior: ratios of products of probabilities.
 #[test]
 fn posteriors_are_normalised_products_of_probabilities() {
     let outcomes = [3, 3, 2, 5];
@@ -138,9 +138,12 @@ fn posteriors_are_normalised_products_of_probabilities() {
     assert!(error.to_string().contains("at most 16777216"));
 }
 
-/// |S~ - S| <= 2 pi sqrt(S (N-S))/T + pi^2 N/T^2 with probability at least 8/pi^2: exactly, from
-/// the distribution, for S~ = N sin^2(pi y/T). The paper's bound has no N in its second term, and
-/// where S is small or nearly N it holds with no more than 0.55.
+/// Checks the bound |S~ - S| <= 2 pi sqrt(S (N-S))/T + pi^2 N/T^2, with probability at least
+/// 8/pi^2.
+///
+/// The probability is exact, from the distribution, for S~ = N sin^2(pi y/T). The paper's bound has
+/// no N in its second term. If S is small or nearly N, the paper's bound holds with probability
+/// 0.55 or less.
 #[test]
 fn the_bound_on_the_count_holds_with_its_n_and_fails_without() {
     let least = 8.0 / (PI * PI);
@@ -148,7 +151,7 @@ fn the_bound_on_the_count_holds_with_its_n_and_fails_without() {
     let (mut fails_without, mut least_without) = (0, 1.0_f64);
     for case in 0..100_000 {
         let total = 1 + stream.next_u64() % (2 << (stream.next_u64() % 40));
-        // Any S, or one of the first or last, of which small amplitudes are.
+        // Any S, or one of the first or last eight, which have amplitudes near 0 or 1.
         let good = match case % 4 {
             0 | 1 => stream.next_u64() % (total + 1),
             2 => (stream.next_u64() % 8).min(total),
@@ -197,7 +200,7 @@ fn the_bound_on_the_count_holds_with_its_n_and_fails_without() {
     );
 }
 
-/// A grid of phases finer than any feature of the kernel.
+/// Checks phases on a grid finer than any feature of the kernel.
 #[test]
 fn one_outcome_is_within_a_step_with_the_stated_probability() {
     for bits in [1, 2, 3, 4, 7, 12] {
@@ -220,9 +223,11 @@ fn one_outcome_is_within_a_step_with_the_stated_probability() {
     }
 }
 
-/// Measured elsewhere for a uniform in [0, 1] (root mean square errors): single-shot counting
-/// 0.50/sqrt(T), the sine window 1.28/T, Monte Carlo 0.41/sqrt(n). The mean over outcomes is
-/// exact, for draws of a tail so heavy would take too long to settle.
+/// Compares with root mean square errors measured elsewhere, for a uniform in [0, 1].
+///
+/// They are 0.50/sqrt(T) for single-shot counting, 1.28/T for the sine window, and 0.41/sqrt(n) for
+/// Monte Carlo. The mean over outcomes is exact here: draws from a tail this heavy converge too
+/// slowly.
 #[test]
 fn single_shot_errors_scale_as_the_literature_says() {
     let total = 1_u64 << 40;

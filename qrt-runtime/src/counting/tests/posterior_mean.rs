@@ -1,15 +1,15 @@
-//! The posterior's mean against sums over every S, and against what is known in closed form.
+//! Compares the posterior's mean with sums over every S, and with closed forms.
 
 use crate::counting::{PhaseDistribution, posterior, posterior_mean};
 use crate::random::Stream;
 use qrt_core::scene::Window;
 
-/// Mean, deviation, and what an interval holds, by a sum over every S.
+/// Compares the mean and the mass of the interval with sums over every S.
 #[test]
 fn means_and_intervals_equal_sums_over_every_count() {
     for case in 0..30_u32 {
         let mut stream = Stream::new(5, case, 0, 0);
-        // Both ways: every S, and cells.
+        // Tests both methods: sums over every S, and sums over cells.
         let total = if case % 6 == 0 {
             600
         } else {
@@ -56,7 +56,8 @@ fn means_and_intervals_equal_sums_over_every_count() {
     }
 }
 
-/// T = 2 reads 0 with probability 1 - a: posteriors are beta distributions.
+/// Checks a register with T = 2, which reads 0 with probability 1 - a: posteriors are beta
+/// distributions.
 #[test]
 fn means_are_those_of_beta_distributions() {
     for (outcomes, mean) in [
@@ -68,14 +69,15 @@ fn means_are_those_of_beta_distributions() {
         let found = posterior_mean(&outcomes, 1 << 50, 1, Window::Rect, 0.9).unwrap();
         assert!((found.mean - mean).abs() < 1e-12, "{outcomes:?}: {found:?}");
     }
-    // The likeliest 90 % of 2 (1 - a) reach to 1 - 0.1^(1/2), and on to the end of a panel.
+    // The likeliest 90 % of the density 2 (1 - a) reach to 1 - 0.1^(1/2). The interval goes on to
+    // the end of a panel.
     let found = posterior_mean(&[0], 1 << 50, 1, Window::Rect, 0.9).unwrap();
     assert_eq!(found.interval.0, 0.0);
     let end = 1.0 - 0.1_f64.sqrt();
     assert!((end..end + 0.25).contains(&found.interval.1), "{found:?}");
 }
 
-/// Registers of 40 bits, a million repetitions, 2^60 indices.
+/// Checks registers of up to 40 bits, up to 100,000 repetitions, and 2^60 indices.
 #[test]
 fn extremes_have_means_near_the_truth() {
     let total = 1_u64 << 60;

@@ -1,25 +1,26 @@
-//! How many strata: from the colours of the paths that a run's first shots measured.
+//! Chooses the number of strata from the colours of the paths that a run's first shots measured.
 
 use crate::counting::Stratum;
 use crate::estimators::Device;
 
-/// Good indices, and others, that must have been measured before the number of strata is decided.
+/// Number of good indices, and of others, that must be measured before the choice.
 const ENOUGH: u64 = 6;
-/// Queries before that, at the least.
+/// The smallest number of queries before the choice.
 const FEWEST: u64 = 24;
-/// The fraction of queries after which it is not decided any more.
+/// The fraction of queries after which the run keeps counting the whole.
 const LATEST: f64 = 1.0 / 6.0;
-/// By what factor strata must make the error smaller.
+/// The factor by which strata must reduce the error.
 pub(super) const WORTH: f64 = 1.15;
-/// Queries that a stratum's posterior takes to find the right section of its angles.
+/// Number of queries that a stratum's posterior takes to find the right section of its angles.
 const SEARCH: f64 = 4.0;
-/// Queries times deviation of an amplitude a, over `sqrt(a (1 - a))`; measured.
+/// Queries times standard deviation of an amplitude a, over `sqrt(a (1 - a))`; measured.
 const FAR: f64 = 2.2;
-/// Queries squared times deviation of an amplitude of 0 or 1; measured.
+/// Queries squared times standard deviation of an amplitude of 0 or 1; measured.
 const NEAR: f64 = 0.63;
 
-/// With how many strata to go on, once that can be decided; 1 to go on with the whole. The run may
-/// use `queries`, of which `left` are left.
+/// The number of strata to continue with, or `None` if it cannot be decided yet.
+///
+/// 1 means to continue with the whole. The run may use `queries` queries, of which `left` remain.
 pub(super) fn decided(
     device: &Device<'_>,
     bits: u32,
@@ -39,13 +40,13 @@ pub(super) fn decided(
     }
 }
 
-/// Whether the paths that were measured tell how colours are spread.
+/// True if the measured paths suffice to estimate the distribution of colours.
 fn enough(measured: &[[u64; 2]]) -> bool {
     let sum = |which: usize| measured.iter().map(|found| found[which]).sum::<u64>();
     sum(0) >= ENOUGH && sum(1) >= ENOUGH
 }
 
-/// The number of strata with which the rest of the queries promises the smallest error.
+/// The number of strata with the smallest expected error; 1 unless it gains the factor [`WORTH`].
 fn choose(octaves: &[f64], bits: u32, queries: u64, left: u64) -> u32 {
     let all = (1_u64 << bits) as f64;
     let parts = |count: u32| {
@@ -68,12 +69,12 @@ fn choose(octaves: &[f64], bits: u32, queries: u64, left: u64) -> u32 {
     }
 }
 
-/// By octave, how many of its thresholds a path exceeds on average, as far as measured paths tell:
-/// by length of their counts in bits, those of good indices and of others.
+/// The mean number of thresholds of each octave that a path exceeds, estimated from measured paths.
 ///
-/// A path with a count of x came up with a weight of `good x/(a C) + others (C - x)/((1 - a) C)`,
-/// for so many good and other indices that were measured; x is taken to be in the middle of those
-/// of its length.
+/// `measured` has the numbers of good indices and of others, by the length in bits of their paths'
+/// counts. Let `good` and `others` be their sums. A path with a count of x has been measured with a
+/// weight of `good x/(a C) + others (C - x)/((1 - a) C)`. The estimate takes x in the middle of the
+/// counts of its length.
 fn octaves(measured: &[[u64; 2]], amplitude: f64, bits: u32) -> Vec<f64> {
     let all = (1_u64 << bits) as f64;
     let [good, others] = [0, 1].map(|which| {
@@ -106,13 +107,13 @@ fn octaves(measured: &[[u64; 2]], amplitude: f64, bits: u32) -> Vec<f64> {
     (0..=bits).map(exceeded).collect()
 }
 
-/// The variance to expect of strata of these widths and amplitudes after so many queries, split as
-/// well as can be.
+/// The expected variance of `strata` after `queries` queries, at the best split among them.
 ///
-/// After Q queries a stratum has `(FAR x / Q)^2 + (NEAR w / Q^2)^2`: the first term is that of an
-/// amplitude far from 0 and 1, the second that of one so near that it may be there. A query more
-/// takes as much off in each stratum if Q is about
-/// `(2 (FAR x)^2 / l)^(1/3) + (4 (NEAR w)^2 / l)^(1/5)`, with the same l in all.
+/// Each stratum is a width w and an amplitude a. With x = `w sqrt(a (1 - a))`, its variance after Q
+/// queries is `(FAR x / Q)^2 + (NEAR w / Q^2)^2`. The first term is that of an amplitude far from 0
+/// and 1, the second that of an amplitude that may be 0 or 1. One more query reduces the variance
+/// of every stratum equally if Q is about `(2 (FAR x)^2 / l)^(1/3) + (4 (NEAR w)^2 / l)^(1/5)`,
+/// with the same l in all.
 fn variance(strata: impl Iterator<Item = (f64, f64)> + Clone, queries: f64) -> f64 {
     if queries < 1.0 {
         return f64::INFINITY;
@@ -130,8 +131,8 @@ fn variance(strata: impl Iterator<Item = (f64, f64)> + Clone, queries: f64) -> f
         let (f, n) = shares(terms(stratum));
         (far, near) = (far + f, near + n);
     }
-    // With u = l^(-1/15): far u^5 + near u^3 = Q, which bends upwards: either term alone gives a u that
-    // is too large, and Newton's steps come from there.
+    // With u = l^(-1/15): far u^5 + near u^3 = Q. The left side is convex, and either term alone
+    // gives a u that is too large. Newton's steps start there.
     let mut u = libm::pow(queries / far, 0.2).min(libm::cbrt(queries / near));
     for _ in 0..20 {
         let (square, cube) = (u * u, u * u * u);

@@ -1,50 +1,54 @@
-//! How deep to measure next.
+//! The choice of the next query depth.
 //!
-//! A shot after k iterations is worth what it is expected to do to the posterior, per query. For a
-//! normal posterior with deviation sigma of `pi theta`, at the best phase, it leaves
-//! `1 - u exp(-u)` of the variance, u = (4 k sigma)^2; the growth of 1/sigma per query is largest
-//! at k sigma = 0.197, flatly. Deeper shots leave several modes, which cost queries later, so that
-//! over whole runs less is more: see [`BEST`].
+//! The value of a shot after k iterations is its expected effect on the posterior, per query. For a
+//! normal posterior with deviation sigma of `pi theta`, a shot at the best phase leaves
+//! `1 - u exp(-u)` of the variance, u = (4 k sigma)^2. The growth of 1/sigma per query has a flat
+//! maximum at k sigma = 0.197. Deeper shots leave several modes, which cost queries later, so the
+//! best k over whole runs is smaller: see [`BEST`].
 
 use super::posterior::Posterior;
 use super::support::turned;
 use crate::estimators::{MAX_ITERATIONS, Noise};
 
-/// k times the width of the posterior to aim at. Measured over a uniform in [0, 1]: from 0.10 to
-/// 0.14, queries times 95th-percentile error are within 5 % of their least; at 0.2, one run in a
-/// thousand ends at another mode, with errors a hundred times as large.
+/// The target for k times the width of the posterior.
+///
+/// Measured over a uniform in [0, 1]: from 0.10 to 0.14, queries times 95th-percentile error are
+/// within 5 % of their minimum. At 0.2, one run in a thousand ends at another mode, with errors a
+/// hundred times as large.
 const BEST: f64 = 0.12;
-/// Query depths tried, as fractions of that.
+/// Candidate query depths, as fractions of the target.
 const AROUND: [f64; 24] = [
     0.60, 0.64, 0.68, 0.72, 0.76, 0.80, 0.83, 0.86, 0.89, 0.92, 0.95, 0.98, 1.0, 1.03, 1.06, 1.09,
     1.12, 1.15, 1.18, 1.21, 1.25, 1.29, 1.34, 1.40,
 ];
-/// Of these, those looked at closely if there is one mode: the best by the formula for a normal
-/// posterior.
+/// Number of candidates that are evaluated if there is one mode: the best by the formula for a
+/// normal posterior.
 const CLOSELY: usize = 4;
-/// Otherwise every second one.
+/// With several modes, one candidate of this number is evaluated.
 const EVERY: usize = 2;
-/// Where the best is below this, every query depth up to it is tried.
+/// If the target query depth is below this, every query depth up to this is a candidate.
 const SHALLOW: u64 = 6;
-/// The standard deviation over the width, above which there is more than one mode.
+/// Ratio of the standard deviation to the width above which there is more than one mode.
 const ONE_MODE: f64 = 1.15;
-/// What fraction of the variance a round of several shots at one query depth is to take.
+/// The fraction of the variance that a round of several shots at one query depth should remove.
 const ROUND: f64 = 0.3;
 
-/// What to measure next.
+/// The next measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Measurement {
     pub(super) iterations: u64,
     pub(super) shots: u64,
 }
 
-/// The query depth, near the one that fits the posterior's width, whose shot is expected to sharpen
-/// the posterior most per query: the largest growth of `1/sigma`, where sigma^2 is the expected
-/// variance over all modes. So of the query depths that sharpen one mode, that is preferred which
-/// rules out others. At most `left` queries, which is at least one.
+/// Chooses the query depth whose shot is expected to sharpen the posterior most per query.
 ///
-/// Where noise or [`MAX_ITERATIONS`] forbid the fitting query depth, several shots are taken at
-/// once.
+/// Candidates are near the query depth that fits the posterior's width. The criterion is the growth
+/// of `1/sigma`, where sigma^2 is the expected variance over all modes. Among the query depths that
+/// sharpen one mode, it prefers one that rules out others. The measurement takes at most `left`
+/// queries, which is at least one.
+///
+/// If noise or [`MAX_ITERATIONS`] forbid the fitting query depth, the measurement has several
+/// shots.
 pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Measurement {
     let width = posterior.width();
     let deepest = left.min(MAX_ITERATIONS).min(posterior.deepest() as u64);
@@ -94,8 +98,10 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Mea
     }
 }
 
-/// The query depth beyond which noise destroys more than a greater one gains: `r^2 k`, the
-/// information per query where r = (1 - p)^k of all shots are intact, is largest at half of 1/p.
+/// The query depth beyond which noise destroys more than further queries gain.
+///
+/// The information per query is `r^2 k`, where r = (1 - p)^k of all shots are intact. It is largest
+/// at half of 1/p.
 pub(super) fn useful(noise: &Noise) -> f64 {
     if noise.depolarising > 0.0 {
         -0.5 / libm::log1p(-noise.depolarising.min(0.999_999))
@@ -104,9 +110,11 @@ pub(super) fn useful(noise: &Noise) -> f64 {
     }
 }
 
-/// The query depth that fits the width: [`BEST`], or, towards the end, one that leaves no useless
-/// rest. `room` is width times the queries that are left. (From a dynamic programme over normal
-/// posteriors: one shot up to 0.27, two up to 0.55, three up to 0.85.)
+/// The query depth that fits `width`: [`BEST`], or, towards the end, one that leaves no useless
+/// rest.
+///
+/// `room` is `width` times the remaining queries. The limits come from a dynamic programme over
+/// normal posteriors: one shot up to 0.27, two up to 0.55, three up to 0.85.
 fn fitting(room: f64, width: f64) -> f64 {
     let fraction = if room < 0.27 {
         room

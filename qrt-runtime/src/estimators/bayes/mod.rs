@@ -1,11 +1,11 @@
 //! Bayesian estimators.
 //!
-//! Query depths and intervals follow from a prior that is uniform over S in `0 ..= N`, that is, in the
-//! amplitude. The posterior of theta = asin(sqrt(S/N))/pi is held coarse to fine around every mode, and
-//! where few S are left, over these. The estimate is the mean under another prior, whose bias is small:
-//! see [`unbiased`].
+//! Query depths and intervals follow from a prior that is uniform over S in `0 ..= N`, that is, in
+//! the amplitude. Points hold the posterior of theta = asin(sqrt(S/N))/pi, from coarse to fine
+//! around every mode. If few S are left, these are the points. The estimate is the mean under
+//! another prior, whose bias is small: see [`unbiased`].
 //!
-//! * [`AdaptiveBayes`] chooses every query depth from it;
+//! * [`AdaptiveBayes`] chooses every query depth from the posterior;
 //! * [`RandomDepth`] draws its query depths at random.
 
 mod adaptive;
@@ -30,7 +30,7 @@ pub use random_depth::RandomDepth;
 use crate::estimators::{EstimatorError, Noise, Settings};
 use posterior::Posterior;
 
-/// What is known of the device, and when to stop.
+/// The device's known noise, and the criteria for the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
     queries: u64,
@@ -40,7 +40,7 @@ struct Goal {
     noise: Noise,
 }
 
-/// The probability of all other S at which one is known.
+/// The probability of all other S at which one S is known.
 const DOUBT: f64 = 1e-12;
 
 impl Goal {
@@ -55,18 +55,18 @@ impl Goal {
         })
     }
 
-    /// Whether S is known.
+    /// True if S is known.
     fn is_known(posterior: &Posterior) -> bool {
         let likeliest = posterior.likeliest();
         likeliest.is_some_and(|(_, probability)| probability > 1.0 - DOUBT)
     }
 
-    /// Whether S is known, or the interval as narrow as is asked.
+    /// True if S is known, or if the interval is as narrow as the requested error.
     fn is_reached(&self, posterior: &Posterior) -> bool {
         if Self::is_known(posterior) {
             return true;
         }
-        // An interval much narrower than the posterior is not worth its computation.
+        // If the posterior is far wider than the requested error, the interval is not computed.
         self.error.is_some_and(|error| {
             posterior.could_reach(error) && {
                 let (low, high) = posterior.interval(self.confidence);

@@ -1,4 +1,4 @@
-//! What is known of theta after shots at several query depths.
+//! The posterior of theta after shots at several query depths.
 
 use super::Goal;
 use super::support::{self, Prior, Support};
@@ -8,18 +8,19 @@ use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Usage};
 use std::f64::consts::PI;
 
-/// Points that together hold less than this of the mass are dropped, cell by cell.
+/// Points with less than this mass are negligible. A cell is dropped if all its points are.
 const NEGLIGIBLE: f64 = 1e-8;
 /// Densities below this fraction of the greatest are rarely part of an interval.
 const FAR_BELOW: f64 = 1e-4;
-/// Grid steps per standard deviation that the shots may have left, at the least. Sums over points
-/// of a smooth density then agree with its integral to better than `exp(-2 (pi/0.7)^2) = 3e-18`.
+/// The largest grid step, in units of the standard deviation that the shots may have left. Sums
+/// over points of a smooth density then agree with its integral to better than
+/// `exp(-2 (pi/0.7)^2) = 3e-18`.
 const COARSEST: f64 = 0.7;
-/// The most points of a grid.
+/// The largest number of points of a grid.
 const MOST_POINTS: f64 = 4096.0;
-/// No outcome is less likely than this, so that no rounding makes data impossible.
+/// The smallest likelihood of an outcome, so that rounding cannot make data impossible.
 const UNLIKELIEST: f64 = 1e-30;
-/// Factors between two rescalings of a product.
+/// Number of factors between two rescalings of a product.
 const FACTORS: usize = 8;
 
 /// Shots at one query depth.
@@ -29,21 +30,21 @@ struct Shots {
     multiple: u64,
     good: u64,
     bad: u64,
-    /// The fraction of shots that noise spares.
+    /// The fraction of shots that noise leaves intact.
     intact: f64,
 }
 
 /// The posterior of theta = asin(sqrt(S/N))/pi, with a prior that is uniform over S in `0 ..= N`.
 ///
-/// It is held at points ([`Support`]), coarse at first, and computed anew from all shots wherever
-/// these call for finer ones: around every mode that still has mass. Where few S are left, the
-/// points are these.
+/// It is held at points ([`Support`]), which are coarse at first. If the shots require finer
+/// points, it is recomputed from all shots, around every mode that still has mass. If few S are
+/// left, these are the points.
 #[derive(Clone, Debug)]
 pub(super) struct Posterior {
     total: u64,
     noise: Noise,
     before: Prior,
-    /// Bits of an index.
+    /// Number of bits of an index.
     bits: u32,
     support: Support,
     shots: Vec<Shots>,
@@ -52,25 +53,25 @@ pub(super) struct Posterior {
     /// Mass of each point; they sum to 1.
     mass: Vec<f64>,
     prior: Vec<f64>,
-    /// `pi theta` less the mean.
+    /// `pi theta` of each point, less the mean.
     deviations: Vec<f64>,
-    /// As the mass, but of the square root of the likelihood.
+    /// The posterior with the square root of the likelihood.
     tempered: Tempered,
-    /// `cos 2 pi theta` where there is noise.
+    /// `cos 2 pi theta` of each point, if there is noise.
     plain: Vec<f64>,
     mean: f64,
     variance: f64,
     cosines: Vec<f64>,
 }
 
-/// The posterior if every shot counted half, which query depths are chosen by.
+/// The posterior in which every shot counts half, for the choice of query depths.
 ///
-/// What single shots at the best phase measure is as likely under one mode as under another, so
-/// that a wrong mode may come to seem certain; at an amplitude of 1/2, where every query depth
-/// gives good and bad indices alike, nothing measured later would contradict it. Half as certain,
-/// the choice keeps testing other modes: errors of many standard deviations become rare, at the
-/// price of a tenth of the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos
-/// 2024, has the same aim.)
+/// Outcomes of single shots at the best phase are as likely under one mode as under another, so a
+/// wrong mode may come to seem certain. At an amplitude of 1/2, where every query depth gives good
+/// and bad indices alike, no later outcome would contradict it. With half the certainty, the choice
+/// keeps testing other modes: errors of many standard deviations become rare, at the price of a
+/// tenth of the queries. (Bayesian amplitude estimation's annealing, Ramôa & Santos 2024, has the
+/// same aim.)
 #[derive(Clone, Debug, Default)]
 struct Tempered {
     mass: Vec<f64>,
@@ -101,7 +102,7 @@ impl Tempered {
 }
 
 impl Posterior {
-    /// Before the first shot.
+    /// Creates the posterior before the first shot.
     pub(super) fn new(total: u64, noise: Noise, before: Prior) -> Self {
         let mut posterior = Self {
             total,
@@ -135,22 +136,25 @@ impl Posterior {
         self.support.position(0).wrapping_add_signed(turns as i64)
     }
 
-    /// The mean distance of `pi theta` from its mean, in units that make it the standard deviation
-    /// where the posterior is normal. Far modes with little mass count less here than there.
+    /// The mean distance of `pi theta` from its mean, scaled to the deviation of a normal
+    /// posterior.
+    ///
+    /// Far modes with little mass count less here than in the standard deviation.
     pub(super) fn width(&self) -> f64 {
         let distance = |mass: f64, deviation: f64| mass * deviation.abs();
         sum(&self.mass, &self.deviations, distance) * (0.5 * PI).sqrt()
     }
 
-    /// Whether an interval of this half-width could hold most of the mass: a wider posterior need
-    /// not be looked at.
+    /// True if an interval of half-width `error` could hold most of the mass.
+    ///
+    /// For a wider posterior, the interval need not be computed.
     pub(super) fn could_reach(&self, error: f64) -> bool {
         let place = support::radians(self.mean_position());
         let slope = libm::sin(2.0 * place).abs();
         slope * self.width() < 4.0 * error
     }
 
-    /// The fraction of shots with so many iterations that noise spares.
+    /// The fraction of shots after `iterations` iterations that noise leaves intact.
     pub(super) fn intact(&self, iterations: u64) -> f64 {
         if self.noise == Noise::NONE || iterations == 0 {
             1.0
@@ -159,11 +163,13 @@ impl Posterior {
         }
     }
 
-    /// The most iterations that make sense: after which the posterior can still be held, for many
-    /// modes call for many points, or which tell neighbouring integers apart.
+    /// The largest number of iterations that is useful.
+    ///
+    /// On a grid, the posterior can still be held after it: many modes need many points. On
+    /// integers, it distinguishes neighbouring ones.
     pub(super) fn deepest(&self) -> f64 {
         let Some(step) = self.support.step() else {
-            // Neighbours d apart differ most where `2 (2k + 1) d` is half a turn.
+            // Neighbours at a distance d differ most if `2 (2k + 1) d` is half a turn.
             return 0.25 * PI / self.support.least_distance();
         };
         let length = step * self.support.len() as f64;
@@ -171,8 +177,9 @@ impl Posterior {
         0.25 * (most * most - self.information).max(0.0).sqrt()
     }
 
-    /// The expected variance after one more shot, as a fraction of the present; of the posterior in
-    /// which shots count half.
+    /// The expected variance after one more shot, as a fraction of the present variance.
+    ///
+    /// The variances are those of the posterior in which shots count half.
     ///
     /// With `C = E[c]` and `D = E[(x - mean) c]` of `c = 1 - 2 P(good)`, a shot leaves
     /// `V - D^2/(1 - C^2)` on average.
@@ -200,7 +207,7 @@ impl Posterior {
         (1.0 - odd * odd / (spread * self.tempered.variance)).clamp(0.0, 1.0)
     }
 
-    /// Takes note of shots after `iterations`.
+    /// Adds shots after `iterations` iterations: `good` good ones and `bad` others.
     pub(super) fn observe(&mut self, iterations: u64, good: u64, bad: u64) {
         let intact = self.intact(iterations);
         let shots = Shots {
@@ -225,7 +232,7 @@ impl Posterior {
         self.prune();
     }
 
-    /// Drops what has no mass, where it is much.
+    /// Drops cells without mass, if they hold at least a quarter of the points.
     fn prune(&mut self) {
         let held = |mass: &[f64]| mass.iter().any(|&mass| mass > NEGLIGIBLE);
         let width = self.support.width();
@@ -242,8 +249,10 @@ impl Posterior {
         self.summarise();
     }
 
-    /// Moves to a grid as fine as the shots demand, and two to four times finer: the next few shots
-    /// need no other. What has no mass before the last of them is dropped.
+    /// Moves to a grid two to four times finer than the shots require.
+    ///
+    /// The next few shots then need no other grid. Cells that had no mass before the last shots are
+    /// dropped.
     fn refine(&mut self, step: f64) {
         let mut finer = 1;
         while step * self.information.sqrt() > COARSEST * f64::from(1_u32 << (finer - 1)) {
@@ -258,7 +267,7 @@ impl Posterior {
         self.recompute();
     }
 
-    /// With a grid fine enough to read off an interval's ends.
+    /// Returns the posterior on a grid fine enough to read off an interval's ends.
     pub(super) fn sharpened(mut self) -> Self {
         let fine = (self.support.step()).is_none_or(|step| step * self.information.sqrt() < 0.1);
         if !fine {
@@ -343,7 +352,7 @@ impl Posterior {
         mean.clamp(0.0, 1.0)
     }
 
-    /// The fraction of good indices, nearly without bias: see [`unbiased`]. For [`Prior::Even`].
+    /// The fraction of good indices under [`Prior::Even`], nearly without bias: see [`unbiased`].
     pub(super) fn unbiased_amplitude(&self) -> f64 {
         let mut evidence = Evidence::default();
         for shots in &self.shots {
@@ -354,10 +363,11 @@ impl Posterior {
         unbiased::amplitude(points, evidence).unwrap_or_else(|| self.mean_amplitude())
     }
 
-    /// The estimate of a run under [`Prior::Even`], with the interval of likeliest points: see
-    /// [`Self::unbiased_amplitude`] and [`Self::interval`]. Where `goal` asks for an error, the estimate is the
-    /// posterior mean, which lies nearer the interval's middle: what is asked for is a bound on each pixel's
-    /// error, not on the picture's.
+    /// The estimate of a run under [`Prior::Even`], with the interval of likeliest points.
+    ///
+    /// See [`Self::unbiased_amplitude`] and [`Self::interval`]. If `goal` has an error, the
+    /// estimate is the posterior mean, which lies nearer the middle of the interval: the requested
+    /// error bounds the error of each pixel, not that of the picture.
     pub(super) fn estimate(&self, device: &Device<'_>, start: Usage, goal: &Goal) -> Estimate {
         let confidence = goal.confidence;
         let (low, high) = self.interval(confidence);
@@ -373,7 +383,7 @@ impl Posterior {
         }
     }
 
-    /// The likeliest S and its probability, where these are held one by one.
+    /// The likeliest S and its probability, if the points are integers.
     pub(super) fn likeliest(&self) -> Option<(u64, f64)> {
         let Support::Integers(integers) = &self.support else {
             return None;
@@ -383,7 +393,7 @@ impl Posterior {
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Ranges without a gap that hold mass.
+    /// Number of ranges without a gap that hold mass.
     pub(super) fn candidates(&self) -> u32 {
         let runs = self.support.runs();
         let held = |&&(first, last): &&(usize, usize)| {
@@ -392,12 +402,13 @@ impl Posterior {
         runs.iter().filter(held).count() as u32
     }
 
-    /// The posterior's region of highest density, and what lies between its parts: all points whose
-    /// likelihood exceeds that of the others, such that they hold [`credible_content`] of the mass.
+    /// The range of the posterior's region of highest density.
+    ///
+    /// The region is the points of highest likelihood that hold [`credible_content`] of the mass.
     pub(super) fn interval(&self, confidence: f64) -> (f64, f64) {
         let content = credible_content(confidence);
         let density = |index: usize| self.mass[index] / self.prior[index];
-        // Whatever was thought before the first shot, coverage is that of an even prior.
+        // The coverage is that of an even prior, whatever the prior of the posterior.
         let mass = match self.before {
             Prior::Even => None,
             Prior::Ends => {
@@ -413,8 +424,8 @@ impl Posterior {
             }
         };
         let mass = mass.as_ref().unwrap_or(&self.mass);
-        // Most points are far below the likeliest and hardly ever asked for, so that they are sorted
-        // apart.
+        // Most points are far below the likeliest and hardly ever needed, so they are sorted
+        // separately.
         let greatest = (0..mass.len()).map(density).fold(0.0, f64::max);
         let (mut held, mut first, mut last) = (0.0, usize::MAX, 0);
         for far in [false, true] {
@@ -444,7 +455,7 @@ impl Posterior {
     }
 }
 
-/// The sum of a term of two numbers each, in as many sums as run side by side.
+/// Sums `term` over pairs of numbers, in parallel sums, one per lane.
 #[inline]
 fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     let mut sums = [0.0; support::LANES];
@@ -469,11 +480,13 @@ fn rescale(mass: &mut [f64]) {
     }
 }
 
-/// Many shots of one query depth: logarithms, relative to the likeliest point, so that what large
-/// counts multiply is small.
+/// Multiplies `mass` by the likelihood of many shots at one query depth.
+///
+/// The factors come from logarithms relative to the likeliest point, so that large counts multiply
+/// small numbers.
 fn multiply_many(shots: Shots, cosines: &[f64], mass: &mut [f64]) {
     let (good, bad) = (shots.good as f64, shots.bad as f64);
-    // P(good) = (1 - c)/2, at its likeliest where c is this.
+    // P(good) = (1 - c)/2, so the likelihood is largest at this c.
     let best = (bad - good) / (good + bad);
     let nearest = (cosines.iter().copied())
         .min_by(|a, b| (a - best).abs().total_cmp(&(b - best).abs()))

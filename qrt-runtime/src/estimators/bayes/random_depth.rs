@@ -4,28 +4,32 @@ use super::run::Depths;
 use super::{Goal, strata};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
-/// `random-depth`: single shots after a number of iterations drawn uniformly from a range that
-/// grows from shot to shot, and the estimate of `adaptive-bayes`.
+/// `random-depth`: single shots after a random number of iterations, and the estimate of
+/// `adaptive-bayes`.
 ///
-/// After Lu & Lin, *Random-depth quantum amplitude estimation* (2023): with the fixed query depths
-/// of MLAE there are critical amplitudes, at which a query depth tells nothing and the likelihood
-/// has two equal peaks; random query depths have none. Theirs maximise the likelihood of many shots
-/// per range; here every shot has a query depth of its own, the range grows by a factor of 1.09
-/// with each, and the estimate is a mean of the whole posterior. What was measured does not decide
-/// what is measured next, except when to stop, and that the range does not grow while more modes are
-/// left than can be held.
+/// The number of iterations is uniform in a range that grows from shot to shot.
 ///
-/// With a few hundred queries the posterior often has several modes, and the estimate lies between them.
-/// On the Cornell box with 255 queries the RMSE is a quarter of the mean, that of sampling half of it
-/// (`cargo bench --bench estimators -- bias`).
+/// After Lu & Lin, *Random-depth quantum amplitude estimation* (2023). The fixed query depths of
+/// MLAE have critical amplitudes, at which a query depth gives no information and the likelihood
+/// has two equal peaks; random query depths have none. Lu & Lin maximise the likelihood of many
+/// shots per range. Here every shot has a query depth of its own, the range grows by a factor of
+/// 1.09 with each shot, and the estimate is a mean of the whole posterior. Outcomes do not affect
+/// the next measurements, with two exceptions: they decide when to stop, and the range does not
+/// grow while more modes are left than the posterior can hold.
 ///
-/// Interval and stopping as with `adaptive-bayes`.
+/// With a few hundred queries the posterior often has several modes, and the estimate lies between
+/// them. On the Cornell box with 255 queries its RMSE is a quarter of the mean, and that of
+/// sampling is half of the mean (`cargo bench --bench estimators -- bias`).
+///
+/// Interval and stopping are those of `adaptive-bayes`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RandomDepth {
     goal: Goal,
 }
 
 impl RandomDepth {
+    /// Creates the estimator from `settings`.
+    ///
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {

@@ -1,20 +1,20 @@
-//! A Bayesian run that can be left after any shot, and taken up again.
+//! A Bayesian run that can be suspended after any shot and resumed.
 
 use super::posterior::Posterior;
 use super::support::Prior;
 use super::{Goal, depth};
 use crate::estimators::{Device, EstimatorError, MAX_ITERATIONS};
 
-/// How query depths are chosen.
+/// The rule that chooses query depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Depths {
-    /// From what is known: see [`super::AdaptiveBayes`].
+    /// From the posterior: see [`super::AdaptiveBayes`].
     Adaptive,
     /// At random from a growing range: see [`super::RandomDepth`].
     Random {
         /// The end of the range.
         range: f64,
-        /// Shots made.
+        /// Number of shots made.
         shots: u64,
     },
 }
@@ -27,21 +27,21 @@ impl Depths {
     };
 }
 
-/// What the range of random query depths grows by with each shot.
+/// The factor by which the range of random query depths grows with each shot.
 const GROWTH: f64 = 1.09;
 
-/// A run under way.
+/// A run in progress.
 #[derive(Clone, Debug)]
 pub(super) struct Run<'a> {
     goal: &'a Goal,
     depths: Depths,
     pub(super) posterior: Posterior,
-    /// Queries up to now.
+    /// Number of queries used.
     pub(super) used: u64,
 }
 
 impl<'a> Run<'a> {
-    /// A run over so many indices, before its first shot.
+    /// Creates a run over `total` indices, before its first shot.
     pub(super) fn new(goal: &'a Goal, depths: Depths, total: u64, before: Prior) -> Self {
         Self {
             goal,
@@ -51,13 +51,15 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Whether S is known.
+    /// True if S is known.
     pub(super) fn is_over(&self) -> bool {
         Goal::is_known(&self.posterior)
     }
 
-    /// The next measurement, of at most `left` queries, which are at least one; and how many it
-    /// took.
+    /// Makes the next measurement, of at most `left` queries, and returns the number of queries
+    /// used.
+    ///
+    /// `left` is at least one.
     pub(super) fn step(
         &mut self,
         device: &mut Device<'_>,
@@ -73,10 +75,11 @@ impl<'a> Run<'a> {
                 let limit = most.min(self.posterior.deepest()).min(left as f64);
                 let held_back = *range > limit;
                 let deepest = range.min(limit) as u64;
-                // A product of 64 random bits and a range below 2^45: its upper half is uniform.
+                // The upper half of the product of 64 random bits and a range below 2^45 is
+                // uniform.
                 let draw = u128::from(device.stream().next_u64()) * u128::from(deepest + 1);
                 let iterations = (draw >> 64) as u64;
-                // Where the range may not grow, the shots do.
+                // If the range must not grow, the number of shots grows instead.
                 let batch = if held_back && *range > most {
                     (*shots as f64 * (GROWTH - 1.0)) as u64
                 } else {

@@ -1,40 +1,44 @@
-//! The comparator in parts, each counted by itself.
+//! Counts the comparator in parts, each on its own.
 //!
-//! With the comparator's top bits fixed, the good indices of a [`Stratum`] are counted alone:
+//! With the comparator's top bits fixed, a circuit counts the good indices of a [`Stratum`] alone:
 //!
 //! ```text
 //! S/N = sum_k w_k a_k,    w_k the fraction of thresholds, a_k of good indices of stratum k.
 //! ```
 //!
-//! After Q_k queries a_k is off by some `sqrt(a_k (1 - a_k)) / Q_k`, and the errors of strata add
-//! in squares. With `x_k = w_k sqrt(a_k (1 - a_k))` the best split is `Q_k ~ x_k^(2/3)`, and so
+//! After Q_k queries the error of a_k is about `sqrt(a_k (1 - a_k)) / Q_k`, and the errors of
+//! strata add in squares. With `x_k = w_k sqrt(a_k (1 - a_k))` the best split is `Q_k ~ x_k^(2/3)`,
+//! with
 //!
 //! ```text
 //! error ~ (sum_k x_k^(2/3))^(3/2) / Q,
 //! ```
 //!
-//! for the whole at once `sqrt(a (1 - a)) / Q`. Where paths' colours are small against their bound,
-//! the lowest stratum has all of S and a small width, and the others are empty; where each path is
-//! all or nothing, all strata are alike and nothing is won.
+//! as opposed to `sqrt(a (1 - a)) / Q` for the whole at once. If paths' colours are small against
+//! their bound, the lowest stratum has all of S and a small width, and the others are empty. If
+//! each path is all or nothing, all strata are alike and there is no gain.
 //!
 //! # How queries are split
 //!
-//! Each stratum has a posterior of its own, and the next shot is made in the one with the largest
-//! `w_k^2 Var(a_k) / Q_k`. At the best split that is the same in all: with variances that fall as
-//! `1/Q_k^2`, it is what one more query takes off the variance of the sum. So the split follows from
-//! what is measured, and an empty stratum is left as soon as it is known to be.
+//! Each stratum has a posterior of its own. The next shot is in the stratum with the largest
+//! `w_k^2 Var(a_k) / Q_k`. At the best split this value is the same in all strata: with variances
+//! that fall as `1/Q_k^2`, it is the amount that one more query takes off the variance of the sum.
+//! The split therefore follows from the outcomes, and a stratum gets no more shots once it is known
+//! to be empty.
 //!
 //! Strata are often empty or full, and each has its own posterior. With a prior uniform in every
-//! `a_k`, what empty strata are overestimated by would add up, and be the largest part of the error;
-//! theirs is [`Prior::Ends`]. Intervals are those of a uniform prior nonetheless.
+//! `a_k`, the overestimates of empty strata would add up and be the largest part of the error. The
+//! prior of strata is therefore [`Prior::Ends`]. Their intervals are still those of a uniform
+//! prior.
 //!
 //! # How many strata
 //!
-//! Unless that is asked for, the whole is counted as ever until enough indices are measured. Each
-//! shot measures one, and the colour of its path says how colours are spread; from these follow all
-//! `a_k`, roughly, and the error that each number of strata would have. If one is better by
-//! [`choice::WORTH`] with the queries that are left, what is known is given up and the run begins
-//! anew with strata; if not, it goes on, and is the same, query by query, as without strata.
+//! Unless the number is requested, the run counts the whole as usual until it has measured enough
+//! indices. Each shot measures one, and the colour of its path shows how colours are spread. From
+//! the colours follow all `a_k`, roughly, and the error that each number of strata would have. If a
+//! number is better by [`choice::WORTH`] with the remaining queries, the run discards its posterior
+//! and begins anew with strata. If not, it continues, and is the same, query by query, as without
+//! strata.
 
 use super::run::{Depths, Run};
 use super::support::Prior;
@@ -43,22 +47,23 @@ use crate::counting::Stratum;
 use crate::estimators::device::Usage;
 use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
 
-/// The fraction of its mean that an amplitude, or what it lacks to 1, is at least for its posterior
-/// to be nearly symmetric.
+/// A posterior is nearly symmetric if the lower end of its interval is at least this fraction of
+/// its mean, and likewise the upper end, measured from 1.
 const RESOLVED: f64 = 0.25;
 
-/// A stratum, and what is known of it.
+/// A stratum and the run that counts it.
 struct StratumRun<'a> {
     stratum: Stratum,
-    /// The fraction of thresholds.
+    /// The stratum's fraction of all thresholds.
     width: f64,
     run: Run<'a>,
-    /// Of the stratum's contribution to the whole.
+    /// Variance of the stratum's contribution to the whole.
     variance: f64,
     good_ids: u64,
 }
 
-/// One run: of the whole, of as many strata as are asked for, or as seem best.
+/// Runs once: over the whole, over the requested number of strata, or over the number that seems
+/// best.
 pub(super) fn estimate(
     goal: &Goal,
     depths: Depths,
@@ -88,7 +93,7 @@ pub(super) fn estimate(
     Ok(whole.posterior.sharpened().estimate(device, start, goal))
 }
 
-/// Counts `strata` strata one by one, with the queries that are left since `start`.
+/// Counts `strata` strata, each on its own, with the queries that remain since `start`.
 fn in_strata(
     goal: &Goal,
     depths: Depths,
@@ -154,7 +159,7 @@ fn in_strata(
 }
 
 impl StratumRun<'_> {
-    /// Takes note of what is known after a shot.
+    /// Updates the variance after a shot.
     fn look(&mut self) {
         self.variance = if self.run.is_over() {
             0.0
@@ -166,11 +171,12 @@ impl StratumRun<'_> {
 
 /// The amplitude of the whole, and its interval.
 ///
-/// Each stratum's interval may fail with its n-th part of the failure probability, for each of n may
-/// have come to a wrong section of angles. On either side distances to the ends of strata's intervals add in squares, for the strata are
-/// measured independently of one another. But those of strata that may be empty or full, or almost,
-/// add up: their posteriors are so skewed that all means may be off to the same side, and what was
-/// not met in any of them is missing in all at once.
+/// Each stratum's interval has an n-th part of the failure probability, because each of the n
+/// strata may have ended at a wrong section of angles. On either side, the distances to the ends of
+/// strata's intervals add in squares, because the strata are measured independently. The distances
+/// of strata that may be empty or full, or almost, add linearly: their posteriors are so skewed
+/// that all means may be off to the same side, and good indices that none of them has measured are
+/// missing in all at once.
 fn sum(parts: &[StratumRun<'_>], confidence: f64) -> (f64, (f64, f64)) {
     let confidence = 1.0 - (1.0 - confidence) / parts.len() as f64;
     let (mut amplitude, mut squares, mut sums) = (0.0, [0.0; 2], [0.0; 2]);

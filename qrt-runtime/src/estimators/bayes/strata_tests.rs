@@ -1,4 +1,4 @@
-//! What counting by strata promises.
+//! Tests of counting by strata.
 
 use crate::counting::{Octaves, Stratum};
 use crate::estimators::{Device, Estimate, Noise, Problem, Settings, estimator};
@@ -18,13 +18,13 @@ fn paths(colour: impl Fn(f64) -> f64) -> Octaves {
     octaves
 }
 
-/// What light sampling makes of a pixel: some paths are in shadow, the others spread up to a small
-/// part of the scale.
+/// A pixel with light sampling: some paths are in shadow, the others spread up to a small part of
+/// the scale.
 fn light_sampled() -> Octaves {
     paths(|u| 0.1 * (u - 0.226).max(0.0))
 }
 
-/// What pixels may look like.
+/// Pixels of several kinds, with their names.
 fn pixels() -> Vec<(&'static str, Octaves)> {
     let last = 1.0 - 1.0 / PATHS as f64;
     vec![
@@ -95,8 +95,9 @@ fn truth(octaves: &Octaves) -> f64 {
     octaves.good().iter().sum::<u64>() as f64 / (octaves.paths() << BITS) as f64
 }
 
-/// Of so many runs on every pixel, how many intervals hold S/N, at least: three and a half
-/// deviations below 95 %.
+/// Checks how many intervals of `runs` runs on every pixel hold S/N.
+///
+/// The limit is three and a half deviations below 95 %.
 fn intervals_hold(runs: u32, budgets: &[u64], strata: &[Option<u32>]) {
     let n = f64::from(runs);
     let least = 0.95 * n - 3.5 * (0.95 * 0.05 * n).sqrt();
@@ -131,14 +132,14 @@ fn intervals_of_strata_hold_the_amplitude() {
     intervals_hold(100, &[15, 255], &[None, Some(2), Some(4)]);
 }
 
-/// Not in `.ci/run` either: `cargo test -p qrt-runtime --lib ten_thousand -- --ignored`.
+/// Run it with `cargo test -p qrt-runtime --lib ten_thousand -- --ignored`; `.ci/run` does not.
 #[test]
 #[ignore = "ten thousand runs of every kind take more than eight minutes"]
 fn intervals_of_strata_hold_the_amplitude_ten_thousand_times() {
     intervals_hold(10_000, &[255], &[None, Some(4)]);
 }
 
-/// Of as many runs, the root mean square error.
+/// The root mean square error of `runs` runs.
 fn error(octaves: &Octaves, queries: u64, strata: Option<u32>, runs: u32) -> f64 {
     let (truth, settings) = (truth(octaves), settings(queries, strata));
     let square = |seed| {
@@ -176,7 +177,9 @@ fn strata_pay_where_colours_are_small_and_are_left_alone_where_not() {
     }
 }
 
-/// Also where good indices are known by octave: what is measured beside changes nothing.
+/// Checks one stratum on a device that knows the good indices by octave.
+///
+/// Its estimates are those of a device without that knowledge.
 #[test]
 fn one_stratum_is_the_whole_query_by_query() {
     for (about, octaves) in pixels() {
@@ -200,7 +203,7 @@ fn one_stratum_is_the_whole_query_by_query() {
     }
 }
 
-/// From one query on, with noise, with every number of strata, and with an error that is asked.
+/// Checks budgets from one query on, with noise, several numbers of strata, and a requested error.
 #[test]
 fn strata_keep_their_bounds_and_their_queries() {
     for (about, octaves) in pixels() {

@@ -1,49 +1,50 @@
-//! Where a posterior is held: a grid of angles, coarse to fine, or the integers.
+//! The points that hold a posterior: a grid of angles, from coarse to fine, or integers.
 
 use crate::counting::Angle;
 use crate::estimators::turns::amplitude;
 
-/// Points of a panel.
+/// Number of points of a panel.
 pub(super) const LANES: usize = 8;
-/// The first grid: 2^3 panels over [0, 1/2].
+/// Level of the first grid: 2^3 panels over [0, 1/2].
 const FIRST_LEVEL: u32 = 4;
-/// The finest: points 2^-60 turns apart, and at odd multiples of 2^-61.
+/// Level of the finest grid: points 2^-60 turns apart, at odd multiples of 2^-61.
 const LAST_LEVEL: u32 = 57;
-/// Up to this many integers are held one by one.
+/// The largest number of integers that are held one by one.
 const FEW_INTEGERS: f64 = 128.0;
 
-/// What is known before the first shot.
+/// The distribution of S before the first shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Prior {
-    /// Every S is as likely as any other.
+    /// Every S is equally likely.
     Even,
-    /// No index being good, or all, is far likelier than anything else: the fraction a of good
-    /// indices has the density `(a (1 - a))^(POWER - 1)`.
+    /// S = 0 and S = N are far likelier than any other S: the fraction a of good indices has the
+    /// density `(a (1 - a))^(POWER - 1)`.
     Ends,
 }
 
 /// The power of [`Prior::Ends`]. After Q queries without a good index the posterior mean is about
-/// that many times `2/Q^2`. Measured on pixels with light sampling, four strata have 0.6 of their
-/// error with the even prior (a power of 1), and 0.9 of that with a power of 0.3.
+/// `2/Q^2` times this power. Measured on pixels with light sampling, four strata have 0.6 of their
+/// error with the even prior (a power of 1), and 0.9 of their error with a power of 0.3.
 const POWER: f64 = 0.1;
 
-/// Angles theta, in units of 2^-64 turns, so that `m theta` modulo a turn is a wrapping product,
-/// and exact however large m is.
+/// Points at angles theta, in units of 2^-64 turns.
+///
+/// In this unit `m theta` modulo a turn is a wrapping product, which is exact for every m.
 #[derive(Clone, Debug)]
 pub(super) enum Support {
-    /// Midpoints of equal cells. A panel is [`LANES`] cells; those without mass are left out.
+    /// Midpoints of equal cells. A panel is [`LANES`] cells; panels without mass are left out.
     Grid {
         /// A panel is 2^-level turns wide.
         level: u32,
-        /// Which panels there are, in ascending order.
+        /// Numbers of the panels, in ascending order.
         panels: Vec<u64>,
     },
-    /// Every S that is left, and its theta.
+    /// Pairs of each S that is left and its theta.
     Integers(Vec<(u64, u64)>),
 }
 
 impl Support {
-    /// All that `total` indices allow.
+    /// All points that `total` indices allow.
     pub(super) fn whole(total: u64) -> Self {
         let grid = Self::Grid {
             level: FIRST_LEVEL,
@@ -99,7 +100,7 @@ impl Support {
         }
     }
 
-    /// Stretches of the grid without a gap, as indices of their first and last points.
+    /// Ranges of points without a gap, as indices of their first and last points.
     pub(super) fn runs(&self) -> Vec<(usize, usize)> {
         let mut runs: Vec<(usize, usize)> = Vec::new();
         let neighbours = |before: usize, after: usize| match self {
@@ -127,7 +128,7 @@ impl Support {
         }
     }
 
-    /// Points that are kept or dropped together.
+    /// Number of points that are kept or dropped together.
     pub(super) fn width(&self) -> usize {
         match self {
             Self::Grid { .. } => LANES,
@@ -135,7 +136,7 @@ impl Support {
         }
     }
 
-    /// Drops panels, or integers.
+    /// Drops the panels, or integers, whose entry in `kept` is false.
     pub(super) fn retain(&mut self, kept: &[bool]) {
         let mut index = 0..kept.len();
         let mut keep = || index.next().is_some_and(|index| kept[index]);
@@ -145,8 +146,10 @@ impl Support {
         }
     }
 
-    /// Without the points where `keep` is false (a panel stays if any of its points does), and
-    /// `2^finer` times as fine; or the integers that are left, where they are few.
+    /// The support without the points at which `keep` is false, and `2^finer` times as fine.
+    ///
+    /// A panel stays if `keep` is true at any of its points. If few integers are left, the result
+    /// is these integers.
     pub(super) fn refined(&self, keep: impl Fn(usize) -> bool, finer: u32, total: u64) -> Self {
         match self {
             Self::Integers(integers) => Self::Integers(
@@ -200,7 +203,7 @@ impl Support {
                 self.turns(1, |_, sine| {
                     prior.extend(sine.map(|sine| libm::pow(sine, slope)));
                 });
-                // What the first cell has, over what its midpoint says.
+                // Ratio of the first cell's mass to that of its midpoint.
                 let end = libm::exp2(slope) / (2.0 * POWER);
                 if panels.first() == Some(&0) {
                     prior[0] *= end;
@@ -214,15 +217,16 @@ impl Support {
         }
     }
 
-    /// Uniform over the integers; on a grid, uniform in the fraction of good indices.
+    /// The even prior: uniform over the integers; on a grid, uniform in the fraction of good
+    /// indices.
     fn even(&self) -> Vec<f64> {
         match self {
             Self::Integers(integers) => vec![1.0; integers.len()],
             Self::Grid { level, panels } => {
                 let mut prior = Vec::new();
                 self.turns(1, |_, sine| prior.extend_from_slice(sine));
-                // Midpoints miss a twelfth of their first cell where a density rises from 0, by
-                // the formula of Euler and Maclaurin: h^2/24 of its slope.
+                // A density that rises from 0 has an integral below its midpoint sum, by h^2/24 of
+                // its slope (Euler and Maclaurin). That is a twelfth of the first cell.
                 let end = 11.0 / 12.0;
                 if panels.first() == Some(&0) {
                     prior[0] *= end;
@@ -236,7 +240,7 @@ impl Support {
         }
     }
 
-    /// `pi theta` at every point, less that at the first.
+    /// `pi theta` at every point, minus that at the first.
     pub(super) fn places(&self, places: &mut Vec<f64>) {
         places.clear();
         let first = self.position(0);
@@ -268,7 +272,7 @@ impl Support {
         }
     }
 
-    /// `cos(2 m pi theta)` and `sin(2 m pi theta)` of each panel of a grid.
+    /// Passes `cos(2 m pi theta)` and `sin(2 m pi theta)` of each panel of a grid to `panel_of`.
     fn turns(&self, multiple: u64, mut panel_of: impl FnMut(&[f64; LANES], &[f64; LANES])) {
         let Self::Grid { level, panels } = self else {
             return;
@@ -317,7 +321,8 @@ impl Support {
         }
         let mut integers = Vec::new();
         for &(first, last) in &self.runs() {
-            // A rounding may put an integer on the wrong side of an end: one more on either side.
+            // Rounding may put an integer on the wrong side of an end: includes one more on either
+            // side.
             let low = Angle::count_below(panels[first / LANES] << width, total).saturating_sub(1);
             let high = Angle::count_below((panels[last / LANES] + 1) << width, total) + 1;
             for good in low..=high.min(total) {
@@ -340,9 +345,9 @@ pub(super) fn radians(position: u64) -> f64 {
     position as f64 * (std::f64::consts::PI / 18_446_744_073_709_551_616.0)
 }
 
-/// Cosine and sine of a turn in units of 2^-64.
+/// Cosine and sine of an angle in units of 2^-64 turns.
 pub(super) fn turned(turn: u64) -> (f64, f64) {
-    // Signed, so that small angles of either sign keep their precision.
+    // The angle is signed, so that small angles of either sign keep their precision.
     let angle = (turn as i64) as f64 * (std::f64::consts::TAU / 18_446_744_073_709_551_616.0);
     let (sine, cosine) = libm::sincos(angle);
     (cosine, sine)

@@ -1,4 +1,4 @@
-//! What Bayesian estimators promise.
+//! Tests of the Bayesian estimators.
 
 use super::posterior::Posterior;
 use super::support::Prior;
@@ -58,9 +58,10 @@ fn over_every_count(total: u64, noise: Noise, shots: &[(u64, u64, u64)]) -> (f64
     (amplitude / mass, (second / mass - x * x).sqrt())
 }
 
-/// Query depths as they come, many modes included; six thousand S against a grid. What holds less
-/// than 10^-8 is dropped, which leaves that much of a variance out; a
-/// grid gives S = 0 and S = N half of their weight.
+/// Compares posteriors with sums over every S, at random query depths that may leave many modes.
+///
+/// The posterior of six thousand S is a grid. It drops points with less than 10^-8 of the mass,
+/// which leaves that much of a variance out. A grid gives S = 0 and S = N half of their weight.
 #[test]
 fn posteriors_equal_sums_over_every_count() {
     let noisy = Noise {
@@ -107,9 +108,11 @@ fn posteriors_equal_sums_over_every_count() {
     assert!(checked > 60);
 }
 
-/// Before the first shot: x = pi theta has density sin 2x on [0, pi/2] and variance pi^2/16 - 1/2.
-/// A good or a bad index at k = 0 makes that `2 sin 2x sin^2 x` or its mirror image, with variance
-/// 15 pi^2/256 - 1/2.
+/// Compares the variance before and after one shot with closed forms.
+///
+/// Before the first shot, x = pi theta has density sin 2x on [0, pi/2] and variance pi^2/16 - 1/2.
+/// A good or a bad index at k = 0 makes the density `2 sin 2x sin^2 x` or its mirror image, with
+/// variance 15 pi^2/256 - 1/2.
 #[test]
 fn expected_variances_are_those_of_the_prior_in_closed_form() {
     let mut posterior = Posterior::new(1 << 40, Noise::NONE, Prior::Even);
@@ -123,7 +126,7 @@ fn expected_variances_are_those_of_the_prior_in_closed_form() {
     assert!((posterior.variance() - after).abs() < 1e-5);
 }
 
-/// An exact answer where there are few indices, and the queries end there.
+/// Checks that a run on few indices is exact and ends before its queries do.
 #[test]
 fn few_ids_are_counted_exactly() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {
@@ -150,8 +153,9 @@ fn few_ids_are_counted_exactly() {
     }
 }
 
-/// Queries times 95th-percentile error, within what is stated; here of few runs, with room for
-/// chance.
+/// Compares queries times 95th-percentile error with the stated values.
+///
+/// The runs are few, so the limits leave room for chance.
 #[test]
 fn errors_fall_with_the_queries() {
     for (name, most) in [
@@ -179,8 +183,9 @@ fn errors_fall_with_the_queries() {
     }
 }
 
-/// Query depths of 2^40 and more, batches, known noise and asked errors: within the budget, inside
-/// [0, 1], and where they should be.
+/// Checks query depths of 2^40 and more, batches and known noise.
+///
+/// Estimates are within the budget, inside [0, 1], and near the truth.
 #[test]
 fn extremes_hold() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {
@@ -263,7 +268,7 @@ fn an_asked_error_ends_the_run() {
     }
 }
 
-/// What a device suffers that the estimator does not know of: a wrong answer, but one.
+/// Checks that noise unknown to the estimator still gives an estimate, although a wrong one.
 #[test]
 fn contradictory_outcomes_are_survived() {
     for name in [Estimator::AdaptiveBayes, Estimator::RandomDepth] {

@@ -1,24 +1,24 @@
-//! The estimate of the amplitude that a posterior gives: nearly without bias.
+//! The estimate of the amplitude from a posterior, nearly without bias.
 //!
-//! With `x = asin(sqrt(a))` the shots measure x to a deviation s that hardly depends on x. Under a
-//! prior with density p in x the posterior mean of a is then off, on average over outcomes, by
+//! Let `x = asin(sqrt(a))`. The shots measure x to a deviation s that hardly depends on x. Under a
+//! prior with density p in x, the bias of the posterior mean of a, on average over outcomes, is
 //!
 //! ```text
 //! s^2 (a'' + a' p'/p),    a = sin^2 x,
 //! ```
 //!
-//! to second order in s. That is zero for `p ~ 1/a' = 1/sin 2x`: in a, for the prior
-//! `1/(a (1 - a))` (Haldane, *A note on inverse probability*, 1932). Plain shots, h of n of them
-//! good, then give h/n. A prior that is even in a gives `2 s^2` too much at small a; that is little
-//! beside one pixel's error, but the mean over a picture keeps it.
+//! to second order in s. The bias is zero for `p ~ 1/a' = 1/sin 2x`: in a, for the prior
+//! `1/(a (1 - a))` (Haldane, *A note on inverse probability*, 1932). Shots without iterations, h of
+//! n of them good, then give h/n. A prior that is even in a gives `2 s^2` too much at small a. That
+//! is little compared with one pixel's error, but it stays in the mean over a picture.
 //!
-//! Haldane's prior has infinitely much mass at 0 and at 1. So a run without a good index gives 0,
-//! and one without a bad index 1.
+//! Haldane's prior has infinite mass at 0 and at 1. A run without a good index therefore gives 0,
+//! and a run without a bad index gives 1.
 //!
 //! Below the resolution `1/I`, I the sum of `(2k + 1)^2` over all shots, the formula does not hold.
-//! There a single good index gives about 1/I, which has no bias while I is the same for all
-//! outcomes. But an adaptive run that meets a good index early goes less deep afterwards: I is
-//! smaller, and the mean estimate too large. [`EXTRA`] more mass near the ends makes up for that.
+//! There a single good index gives about 1/I, which has no bias if I is the same for all outcomes.
+//! But an adaptive run that measures a good index early chooses shallower shots afterwards: I is
+//! smaller, and the mean estimate too large. [`EXTRA`] adds mass near the ends to compensate.
 
 /// Unit and power of the factor `(1 + unit/(I a (1 - a)))^power` by which the density exceeds Haldane's.
 ///
@@ -30,18 +30,19 @@ const EXTRA: (f64, f64) = (3.0, 0.6);
 /// Summary of all shots of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Evidence {
-    /// Good indices that were measured.
+    /// Number of good indices that were measured.
     pub(super) good: u64,
-    /// Other indices that were measured.
+    /// Number of other indices that were measured.
     pub(super) bad: u64,
-    /// I, the expected number of good indices over a, for an a near 0: with a fraction r of shots
-    /// that noise spares, the sum of `r (2k + 1)^2 + 1 - r` over all shots.
+    /// I, the expected number of good indices divided by a, for an a near 0. If noise leaves a
+    /// fraction r of shots intact, it is the sum of `r (2k + 1)^2 + 1 - r` over all shots.
     pub(super) resolution: f64,
 }
 
 impl Evidence {
-    /// Adds the numbers of good and bad shots after k iterations, with `multiple = 2k + 1` and the
-    /// fraction `intact` of shots that noise spares.
+    /// Adds the numbers of good and bad shots after k iterations, with `multiple = 2k + 1`.
+    ///
+    /// `intact` is the fraction of shots that noise leaves intact.
     pub(super) fn note(&mut self, multiple: u64, [good, bad]: [u64; 2], intact: f64) {
         self.good = self.good.saturating_add(good);
         self.bad = self.bad.saturating_add(bad);
@@ -51,8 +52,9 @@ impl Evidence {
     }
 }
 
-/// Returns the estimate of a posterior under the even prior, given as `(mass, amplitude)` of its
-/// points; `None` if all mass is at 0 and 1 though the evidence excludes both.
+/// Returns the estimate for a posterior under the even prior; `points` are `(mass, amplitude)`.
+///
+/// The result is `None` if all mass is at 0 and 1 although the evidence excludes both.
 pub(super) fn amplitude(
     points: impl Iterator<Item = (f64, f64)>,
     evidence: Evidence,

@@ -1,4 +1,4 @@
-//! Estimates at the ends, and of plain shots.
+//! Tests of estimates at the ends, and from shots without iterations.
 
 use super::unbiased::{Evidence, amplitude};
 use crate::estimators::{Device, Noise, Problem, Settings, estimator};
@@ -29,8 +29,9 @@ fn black_stays_black_and_white_white() {
     }
 }
 
-/// Plain shots, h of n of them good: with Haldane's prior the mean is h/n, for any h. Many shots
-/// leave nothing of the mass near the ends.
+/// Checks shots without iterations: with Haldane's prior the mean is h/n for h good ones of n.
+///
+/// Many shots leave none of the mass near the ends.
 #[test]
 fn plain_shots_give_the_fraction_of_good_ones() {
     let n = 4000;

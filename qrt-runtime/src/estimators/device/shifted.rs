@@ -1,46 +1,49 @@
-//! The circuit whose amplitude is the mean itself, less a reference.
+//! The shifted circuit, whose amplitude is the mean itself minus a reference.
 //!
 //! Grover's mean algorithm, as Abrams & Williams simplified it, makes the *amplitude* of one basis
 //! state equal to the mean of f - E, so that amplitude amplification magnifies the distance from a
-//! reference E. They rotate a qubit by f(index) - E. The oracle here flips a phase, and the same
-//! amplitude comes of one qubit more, the *coin*:
+//! reference E. They rotate a qubit by f(index) - E. The oracle here flips a phase instead. One
+//! more qubit, the *coin*, gives the same amplitude:
 //!
 //! ```text
 //! W = (H^n x R(phi)^-1) (oracle, if the coin is 1) (sign, if the coin is 0) (H^n x R(phi)),
 //! R(phi) |0> = cos(phi) |0> + sin(phi) |1>,    sin^2(phi) = 1 / (1 + |1 - 2E|).
 //! ```
 //!
-//! With good indices, a = S/N of all, the oracle's mean sign is 1 - 2a. The coin's 0 contributes
-//! `cos^2(phi)`, with the sign that is not that of 1 - 2E, so that the two cancel at a = E:
+//! If the good indices are a fraction a = S/N, the oracle's mean sign is 1 - 2a. The coin's 0
+//! contributes `cos^2(phi)`, with the sign opposite to that of 1 - 2E, so that the two cancel at a
+//! = E:
 //!
 //! ```text
 //! <0|W|0> = sin^2(phi) ((1 - 2a) - (1 - 2E)) = (E - a) / max(E, 1 - E) = -sin(omega).
 //! ```
 //!
-//! That is the mean of f - E in units of its largest value: of all circuits that ask the oracle
-//! once, none has a larger slope with a zero at E. W is real and symmetric and its own inverse,
-//! for the oracle is. So with `Z` the sign of |0...0>, m queries give a Chebyshev polynomial,
+//! That is the mean of f - E in units of its largest value. Of all circuits that call the oracle
+//! once and have a zero at E, none has a larger slope. W is real, symmetric and its own inverse,
+//! because the oracle is. With `Z` the sign of |0...0>, m queries therefore give a Chebyshev
+//! polynomial,
 //!
 //! ```text
 //! |<0| W Z W ... Z W |0>| = |T_m(sin(omega))|,    m times W,
 //! ```
 //!
 //! which is `|sin(m omega)|` for an odd m (amplitude amplification with W as preparation: k rounds
-//! take m = 2k + 1) and `|cos(m omega)|` for an even one. Preparing and amplifying both ask the
-//! oracle, and both are counted: m queries a shot.
+//! take m = 2k + 1) and `|cos(m omega)|` for an even one. Preparation and amplification both call
+//! the oracle, and both count: m queries per shot.
 
 use super::Device;
 use crate::counting::Angle;
 use crate::estimators::{EstimatorError, MAX_ITERATIONS};
 
 impl Device<'_> {
-    /// Of `shots` runs of the circuit shifted by `reference` = E, with `queries` = m each, those
-    /// that give heads: all bits 0 if m is odd, any other outcome if m is even. At least one query.
+    /// Number of heads in `shots` runs of the circuit with reference E = `reference`.
+    ///
+    /// Each run makes m = `queries` queries, at least one. Heads are the outcome with all bits 0 if
+    /// m is odd, and any other outcome if m is even.
     ///
     /// Without noise the probability is `sin^2(m omega)` with
-    /// `sin(omega) = |a - E| / max(E, 1 - E)`, a = S/N. On a state that noise destroyed, the
-    /// index and the coin read 0 with probability 1/(2N). Outcomes that are read wrongly count as
-    /// destroyed.
+    /// `sin(omega) = |a - E| / max(E, 1 - E)`, a = S/N. On a state that noise has destroyed, the
+    /// index and the coin read 0 with probability 1/(2N). Misread outcomes count as destroyed.
     ///
     /// # Errors
     /// A reference that is not in [0, 1], or more queries than [`MAX_ITERATIONS`].
@@ -95,7 +98,8 @@ mod tests {
     use crate::estimators::{Noise, Problem};
     use crate::random::Stream;
 
-    /// Amplitudes of n indices and the coin, which is the highest qubit. All gates are real.
+    /// State vector of the index qubits and the coin, which is the highest qubit. All gates are
+    /// real.
     struct State {
         ids: u32,
         amplitudes: Vec<f64>,
@@ -108,7 +112,7 @@ mod tests {
             Self { ids, amplitudes }
         }
 
-        /// A gate on one qubit, as the rows of its matrix.
+        /// Applies a gate to one qubit, given by the rows of its matrix.
         fn gate(&mut self, qubit: u32, [[a, b], [c, d]]: [[f64; 2]; 2]) {
             let bit = 1 << qubit;
             for i in 0..self.amplitudes.len() {
@@ -125,7 +129,7 @@ mod tests {
             (0..self.ids).for_each(|qubit| self.gate(qubit, [[h, h], [h, -h]]));
         }
 
-        /// The circuit W of this module's page, with the first `good` indices good.
+        /// Applies the circuit W of the module's documentation, with the first `good` indices good.
         fn shifted(&mut self, good: usize, reference: f64) {
             let tilt = (1.0 - 2.0 * reference).abs();
             let (sine, cosine) = ((1.0 / (1.0 + tilt)).sqrt(), (tilt / (1.0 + tilt)).sqrt());
@@ -145,7 +149,8 @@ mod tests {
         }
     }
 
-    /// The state vector, gate by gate, against the closed form; all S of up to 16 indices.
+    /// Compares the state vector, gate by gate, with the closed form, for all S of up to 16
+    /// indices.
     #[test]
     fn the_circuit_measures_what_is_drawn_from() {
         for ids in 0..=4 {
@@ -182,8 +187,10 @@ mod tests {
         }
     }
 
-    /// Fractions of heads, and with noise their mixture with those of the maximally mixed state of
-    /// four indices and a coin.
+    /// Compares fractions of heads with their probability.
+    ///
+    /// With noise, that is mixed with the probability in the maximally mixed state of four index
+    /// qubits and a coin.
     #[test]
     fn heads_are_drawn_with_and_without_noise() {
         let problem = Problem { good: 3, total: 16 };

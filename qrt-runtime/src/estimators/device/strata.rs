@@ -1,50 +1,53 @@
-//! Strata of the comparator, as a device knows them.
+//! Strata of the comparator on a device.
 //!
 //! A circuit whose comparator has some bits fixed counts the good indices of a [`Stratum`] alone.
-//! Fixed bits are constants, and no qubits that noise could reach: what noise does to a shot is
-//! what it does on the indices that are left.
+//! Fixed bits are constants, not qubits, so noise cannot reach them: noise affects a shot as it
+//! would affect one over the remaining indices.
 //!
-//! A measured index is a path, too, whose colour is evaluated classically to know whether the index
-//! is good. Neither query depth nor noise prefers one good index to another, or one of the others:
-//! a path with a count of x is among the good with probability `x/S`, and among the others with
-//! `(C - x)/(N - S)`. So what a run measures shows how colours are spread, and costs no query more.
+//! A measured index is also a path, whose colour is evaluated classically to find out if the index
+//! is good. Neither query depth nor noise prefers one good index to another, or one bad index to
+//! another. A path with a count of x is therefore among the good with probability `x/S`, and among
+//! the others with `(C - x)/(N - S)`. The outcomes of a run show how colours are spread, at no
+//! further queries.
 
 use super::{Device, Problem, Usage};
 use crate::counting::{Octaves, Stratum, binomial};
 use crate::estimators::{EstimatorError, Noise};
 use crate::random::Stream;
 
-/// What a device knows of the spread of colours, and what it has measured of it.
+/// The distribution of colours behind a device, and the part of it that has been measured.
 #[derive(Clone, Debug)]
 pub(super) struct Known {
     bits: u32,
-    /// Indices by octave of their comparator, the good and the others.
+    /// Numbers of indices by the octave of their comparator: good ones and others.
     octaves: Vec<[u64; 2]>,
-    /// Indices by the length in bits of their path's count, the good and the others.
+    /// Numbers of indices by the length in bits of their path's count: good ones and others.
     lengths: Vec<[u64; 2]>,
-    /// Of those, the measured.
+    /// Numbers of those that have been measured.
     measured: Vec<[u64; 2]>,
-    /// Beside the device's own, so that what is drawn here changes nothing that is drawn there.
+    /// A stream beside the device's own, so that these draws do not change the device's.
     stream: Stream,
     counted: Vec<CountedStratum>,
 }
 
-/// A stratum that an estimator has counted by itself.
+/// A stratum that an estimator has counted on its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedStratum {
-    /// Its thresholds.
+    /// The stratum's thresholds.
     pub stratum: Stratum,
-    /// What it contributes to the amplitude of the whole.
+    /// The stratum's contribution to the amplitude of the whole.
     pub amplitude: f64,
-    /// Good indices that were measured in it.
+    /// Number of good indices that were measured in the stratum.
     pub good_ids: u64,
-    /// Queries that it took.
+    /// Number of queries that the stratum took.
     pub queries: u64,
 }
 
 impl<'a> Device<'a> {
-    /// A device for a pixel whose strata can be counted one by one; what it answers is drawn from
-    /// `stream`. Asked about the whole, it gives the answers of [`Device::new`].
+    /// Creates a device for a pixel whose strata can be counted on their own.
+    ///
+    /// It draws its measurements from `stream`. Over the whole comparator, it measures the same as
+    /// a device of [`Device::new`].
     ///
     /// # Errors
     /// No paths, or noise out of range.
@@ -93,22 +96,24 @@ impl<'a> Device<'a> {
         Ok(device)
     }
 
-    /// The comparator's bits, if its strata can be counted one by one.
+    /// Number of the comparator's bits, if its strata can be counted on their own.
     pub fn comparator_bits(&self) -> Option<u32> {
         self.known.as_ref().map(|known| known.bits)
     }
 
-    /// Paths of the indices that were measured up to now, in circuits over the whole comparator, by
-    /// the length in bits of the number of thresholds that they exceed: of good indices, and of
+    /// Numbers of indices that circuits over the whole comparator have measured: good ones and
     /// others.
+    ///
+    /// They are listed by the length in bits of the number of thresholds that the index's path
+    /// exceeds.
     pub fn measured_paths(&self) -> &[[u64; 2]] {
         self.known.as_ref().map_or(&[], |known| &known.measured)
     }
 
-    /// Lets `run` measure on the circuits of one stratum. What it uses is used here.
+    /// Lets `run` measure on the circuits of `stratum`, and adds its usage to that of this device.
     ///
     /// # Errors
-    /// Strata cannot be counted one by one on this device, or the stratum is none of its own.
+    /// An error if this device cannot count strata on their own, or does not have `stratum`.
     pub fn within<T>(
         &mut self,
         stratum: Stratum,
@@ -129,19 +134,19 @@ impl<'a> Device<'a> {
         Ok(value)
     }
 
-    /// Takes note of what an estimator found in a stratum.
+    /// Records an estimator's result for a stratum.
     pub(in crate::estimators) fn report(&mut self, counted: CountedStratum) {
         if let Some(known) = &mut self.known {
             known.counted.push(counted);
         }
     }
 
-    /// The strata that were counted one by one; none where the whole was counted at once.
+    /// The strata that were counted on their own; empty if the whole was counted at once.
     pub fn counted_strata(&self) -> &[CountedStratum] {
         self.known.as_ref().map_or(&[], |known| &known.counted)
     }
 
-    /// Takes note of the paths of measured indices: so many good ones, and others.
+    /// Records the paths of measured indices, `found[0]` good ones and `found[1]` others.
     pub(super) fn read_paths(&mut self, found: [u64; 2]) {
         let Some(known) = &mut self.known else {
             return;

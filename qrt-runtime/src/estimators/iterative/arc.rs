@@ -1,15 +1,15 @@
-//! Ranges of the angle, and the query depth at which they can be halved.
+//! Arcs, which are ranges of the angle, and the query depth that can halve them.
 //!
-//! The fraction of good indices after k iterations, `sin^2((2k+1) pi theta)`, tells theta only
-//! where it is monotone: `m theta` between two multiples of half a turn, m = 2k+1. Those are its
-//! *sections*. An arc of angles is measured best at the largest m that keeps the whole arc within
-//! one section.
+//! The fraction of good indices after k iterations, `sin^2((2k+1) pi theta)`, determines theta only
+//! where it is monotone: for `m theta` between two multiples of half a turn, m = 2k+1. These ranges
+//! are its *sections*. The best measurement of an arc of angles is at the largest m that keeps the
+//! whole arc within one section.
 //!
-//! To find it is a problem of integers: the largest m for which no multiple of half a turn lies
-//! inside `(m low, m high)`. Tried downwards, that can take as many steps as m is large (around
-//! theta = 1/3, say). But the number of all m in a range that will do is a difference of two sums
-//! of `floor((a i + b) / 2^63)`, which Euclid's algorithm adds up in logarithmic time; so the
-//! largest is found by bisection.
+//! That m is the solution of an integer problem: the largest m for which no multiple of half a turn
+//! lies inside `(m low, m high)`. A search downwards can take a number of steps proportional to m
+//! (around theta = 1/3, say). But the number of all suitable m in a range is a difference of two
+//! sums of `floor((a i + b) / 2^63)`, which Euclid's algorithm computes in logarithmic time.
+//! Bisection then finds the largest m.
 
 use crate::estimators::turns::{HALF, amplitude, of_sine_squared};
 
@@ -20,17 +20,17 @@ pub(super) struct Arc {
     pub(super) high: u64,
 }
 
-/// Which multiples of theta a circuit can show.
+/// The multiples of theta that a circuit can measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Multiples {
     /// 2k+1, by measuring the index after k iterations.
     Odd,
-    /// All: 2k also, by measuring whether the state has returned.
+    /// All multiples: also 2k, by measuring if the state has returned.
     All,
 }
 
 impl Multiples {
-    /// The multiple of index i, `step i + offset`.
+    /// Step and offset of the multiples: that of index i is `step i + offset`.
     fn step_offset(self) -> (u64, u64) {
         match self {
             Self::Odd => (2, 1),
@@ -39,10 +39,10 @@ impl Multiples {
     }
 }
 
-/// What rounding may take from an angle that comes out of an `f64`, in units of 2^-64 turns.
+/// The largest rounding error of an angle that is computed in `f64`, in units of 2^-64 turns.
 const SLACK: u64 = 1 << 14;
 
-/// Candidates that are tried one by one, before they are counted.
+/// Number of candidates that are tried one by one before the bisection.
 const TRIED: u64 = 64;
 
 impl Arc {
@@ -88,7 +88,7 @@ impl Arc {
                 return Some(multiple);
             }
         }
-        // Invariant: none in `rest ..`, and one in `low ..`.
+        // Invariant: no suitable multiple in `rest ..`, and at least one in `low ..`.
         let all = self.fitting(of, rest);
         let mut low = first;
         if all == self.fitting(of, low) {
@@ -105,9 +105,10 @@ impl Arc {
         Some(step * low + offset)
     }
 
-    /// How many of the first `count` multiples have a section that holds the arc. Counts only
-    /// multiples of the arc that are at most half a turn wide: of those, `floor(m low) -
-    /// ceil(m high) + 2`, in half turns, is 1 or 0.
+    /// Number of the first `count` multiples with a section that holds the arc.
+    ///
+    /// It counts only multiples of the arc that are at most half a turn wide. For these,
+    /// `floor(m low) - ceil(m high) + 2`, in half turns, is 1 or 0.
     fn fitting(self, of: Multiples, count: u64) -> i128 {
         let (step, offset) = of.step_offset();
         let floors = |angle: u64, more: u64| {
@@ -130,7 +131,7 @@ impl Arc {
         let near = near.saturating_sub(SLACK);
         let far = (far + SLACK).min(HALF);
         let divisor = u128::from(multiple);
-        // Never beyond the section.
+        // The slack must not extend the arc beyond the section.
         let low = ((start + u128::from(near)) / divisor).max(start.div_ceil(divisor));
         let end = start + u128::from(HALF);
         let high = (start + u128::from(far))
@@ -143,7 +144,7 @@ impl Arc {
         }
     }
 
-    /// The angles of both; none if they have less than two in common.
+    /// The angles of both arcs; `None` if they have fewer than two in common.
     pub(super) fn intersection(self, other: Self) -> Option<Self> {
         let low = self.low.max(other.low);
         let high = self.high.min(other.high);
@@ -172,7 +173,7 @@ fn floor_sum(mut count: u128, mut a: u128, mut b: u128) -> u128 {
         if top < modulus {
             return sum;
         }
-        // Columns become rows: points below the line are counted along the other axis.
+        // Exchanges the axes: counts the points below the line along the other axis.
         count = top / modulus;
         b = top % modulus;
         (a, modulus) = (modulus, a);
@@ -185,7 +186,7 @@ mod tests {
     use crate::random::Stream;
     use proptest::prelude::*;
 
-    /// Downwards, one by one.
+    /// The largest multiple, by trying all downwards.
     fn tried(arc: Arc, of: Multiples, from: u64, to: u64) -> Option<u64> {
         (from.max(1)..=to.min(HALF / arc.width()))
             .rev()
@@ -203,7 +204,8 @@ mod tests {
             prop_assert_eq!(floor_sum(u128::from(count), a.into(), b.into()), sum);
         }
 
-        /// Around fractions of small denominators, where few multiples will do, and anywhere.
+        /// Arcs around fractions of small denominators, where few multiples are suitable, and
+        /// anywhere.
         #[test]
         fn the_largest_multiple_is_found_without_trying_them_all(
             near in 0..6_usize, offset in -3.0..3.0_f64, anywhere in 0.0..1.0_f64,
@@ -235,8 +237,10 @@ mod tests {
         }
     }
 
-    /// Around 1/3 of half a turn no multiple of 3 will do, and of the others those of at most 2/3
-    /// of what the width would allow: there is no trying 10^11 of them.
+    /// Checks arcs around 1/3 of half a turn, where the suitable multiples are far below the limit.
+    ///
+    /// No multiple of 3 is suitable, and of the others those of at most 2/3 of the limit that the
+    /// width sets. There can be more than 10^11 candidates above them, too many to try.
     #[test]
     fn structure_at_any_depth_is_seen() {
         let mut stream = Stream::new(1, 0, 0, 0);

@@ -8,22 +8,22 @@ impl Iterative {
     /// *Modified iterative quantum amplitude estimation is asymptotically optimal*, 2022), with
     /// Clopper-Pearson intervals.
     ///
-    /// Odd multiples of theta, each at least three times the one before. The failure probability at
-    /// a multiple m is `(2/3) m / m_max` of the whole failure probability,
-    /// `m_max = pi / (4 error)`: errors at shallow query depths, which would be large, are made
-    /// rare, and cost little. The logarithm of the logarithm in the cost of [`Iterative::iqae`] is
-    /// gone, and the root mean square error falls with 1/queries.
+    /// The estimator uses odd multiples of theta, each at least three times the one before. The
+    /// failure probability at a multiple m is `(2/3) m / m_max` of the whole failure probability,
+    /// `m_max = pi / (4 error)`. Errors at shallow query depths would be large; this makes them
+    /// rare, at little cost. The logarithm of the logarithm in the cost of [`Iterative::iqae`]
+    /// disappears, and the root mean square error falls with 1/queries.
     ///
     /// Interval: the last arc. At a confidence of 95 %, the coverage is 98 to 99 %.
     ///
-    /// Noise is not reckoned with: fractions are taken for those of a perfect device.
+    /// The estimator ignores noise: it takes fractions for those of a perfect device.
     pub fn miqae(settings: &Settings) -> Self {
         Self {
             goal: Goal::new(settings, 5.5),
             rules: Rules {
                 multiples: Multiples::Odd,
                 ratio: 3,
-                // Chosen as those of `iqae`.
+                // The choice follows that of `iqae`.
                 shots: 12,
                 failures: Failures::ByMultiple,
                 late: None,

@@ -1,13 +1,14 @@
 //! Estimation by ever narrower arcs: `iqae`, `miqae` and `chebyshev`.
 //!
-//! All three keep an arc of angles that holds theta, measure at the deepest multiple of theta that
-//! still tells all angles of the arc apart, and turn the exact interval of the measured fraction
-//! into a narrower arc. They differ in the multiples that they may use, in how much deeper the next
-//! measurement must be, in how many shots they take at once, and in how they divide the failure
-//! probability among the query depths: those are the [`Rules`], and each estimator says its own.
+//! All three keep an arc of angles that holds theta. They measure at the deepest multiple of theta
+//! that still distinguishes all angles of the arc, and turn the exact interval of the measured
+//! fraction into a narrower arc. They differ in the multiples that they use, in the factor by which
+//! the next measurement must be deeper, in the number of shots per batch, and in the division of
+//! the failure probability among the query depths. These are the [`Rules`], and each estimator
+//! documents its own.
 //!
-//! An arc replaces the one before it only as far as both agree; where they don't, which happens
-//! only when an interval has failed, the later one stands, as published.
+//! The next arc is the intersection of the new one with the one before. If they do not overlap,
+//! which happens only if an interval has failed, the new arc stands, as published.
 
 mod arc;
 mod chebyshev;
@@ -35,51 +36,53 @@ impl AmplitudeEstimator for Iterative {
     }
 }
 
-/// What distinguishes one method of this family from another.
+/// The rules that distinguish the methods of this family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rules {
     multiples: Multiples,
-    /// How many times deeper the next measurement is at least.
+    /// The smallest factor from one multiple to the next.
     ratio: u64,
-    /// Shots taken at once.
+    /// Number of shots per batch.
     shots: u64,
-    /// How the failure probability is divided among the query depths.
+    /// The division of the failure probability among the query depths.
     failures: Failures,
-    /// Once as many shots would leave less than this many times the error, a tenth of those taken
-    /// at the query depth are taken next.
+    /// If a full batch would leave an error below this many times the requested one, the next batch
+    /// is a tenth of the shots taken at the query depth.
     late: Option<f64>,
 }
 
-/// How the failure probability is divided among the query depths.
+/// The division of the failure probability among the query depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Failures {
     /// The same failure probability for each query depth.
     Equal,
-    /// In proportion to the multiple: the deeper, the more.
+    /// A failure probability in proportion to the multiple.
     ByMultiple,
 }
 
-/// What is left for a late phase is worth at least so many shots.
+/// The smallest number of shots for a query depth in a method with a late phase.
 const FEW_SHOTS: u64 = 5;
 
-/// What is taken off the failure probability, because a query depth's interval is looked at after
-/// every batch of shots, which the published methods that divide it equally leave out: a factor.
-/// Without it, the coverage at a confidence of 95 % is 92 % at worst, at a = 1/2; with it, 95 %.
+/// Factor on the failure probability of the methods that divide it equally. The interval of a query
+/// depth is checked after every batch of shots, which the published methods do not take into
+/// account. Without this factor, the coverage at a confidence of 95 % is 92 % at worst, at a = 1/2;
+/// with it, 95 %.
 const LOOKS: f64 = 0.6;
 
-/// What is wanted, as this family understands it.
+/// The goal of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
     /// Half-width of the interval of S/N at which to stop.
     error: f64,
-    /// The most queries that all query depths together may use.
+    /// The largest number of queries that all query depths together may use.
     queries: u64,
     confidence: f64,
 }
 
 impl Goal {
-    /// The asked error; without one, the error that a method reaches with the queries there are.
-    /// Its `cost` is queries times error: about what most runs take.
+    /// The requested error; without one, the error that a method reaches with its queries.
+    ///
+    /// `cost` is queries times error of the method, about that of most runs.
     fn new(settings: &Settings, cost: f64) -> Self {
         let reachable = (cost / settings.queries as f64).clamp(1e-15, 0.499);
         Self {
@@ -89,21 +92,23 @@ impl Goal {
         }
     }
 
-    /// No multiple beyond this is ever measured: an arc within half a turn of it is narrower than
-    /// the error asks, for S/N changes by at most pi a turn.
+    /// The largest multiple that is ever measured.
+    ///
+    /// An arc within half a turn of it is narrower than the error requires, because S/N changes by
+    /// at most pi per turn.
     fn deepest(&self) -> f64 {
         0.25 * PI / self.error
     }
 }
 
 impl Rules {
-    /// The failure probability at a query depth.
+    /// The failure probability at the query depth of `multiple`.
     fn failure(&self, goal: &Goal, multiple: u64) -> f64 {
         let all = 1.0 - goal.confidence;
         let ratio = self.ratio as f64;
         let deepest = goal.deepest().max(1.0);
         let fraction = match self.failures {
-            // As many query depths as there can be.
+            // Divides by the largest possible number of query depths.
             Failures::Equal => LOOKS / (1.0 + (libm::log(deepest) / libm::log(ratio)).floor()),
             // A geometric series, the last term of which is at most 1.
             Failures::ByMultiple => (1.0 - 1.0 / ratio) * (multiple as f64 / deepest).min(1.0),
@@ -111,7 +116,7 @@ impl Rules {
         all * fraction
     }
 
-    /// A multiple of which nothing is measured yet.
+    /// Creates the measurements at `multiple`, with no shots yet.
     fn depth(&self, goal: &Goal, multiple: u64) -> Depth {
         let failure = self.failure(goal, multiple);
         let (low, high) = clopper_pearson(self.shots / 2, self.shots, failure);
@@ -155,7 +160,7 @@ impl Rules {
         Ok(device.estimate(start, 0.5 * (low + high), (low, high), goal.confidence))
     }
 
-    /// The shots for which the queries must suffice, for a query depth to be worth measuring.
+    /// The smallest affordable number of shots that makes a query depth worth measuring.
     fn least_shots(&self) -> u64 {
         if self.late.is_some() {
             self.shots.min(FEW_SHOTS)
@@ -164,12 +169,12 @@ impl Rules {
         }
     }
 
-    /// How many shots to take next.
+    /// Number of shots in the next batch.
     fn batch(&self, arc: &Arc, depth: &Depth, goal: &Goal) -> u64 {
         let Some(late) = self.late else {
             return self.shots;
         };
-        // Carried over to S/N.
+        // Converts the half-width of the fraction to that of S/N.
         let (from, to) = (depth.fraction(arc.low), depth.fraction(arc.high));
         let reachable = depth.widest * 2.0 * arc.error() / (to - from).abs();
         if reachable < late * goal.error {
@@ -197,7 +202,7 @@ impl Depth {
         self.multiple % 2 == 1
     }
 
-    /// Queries that one shot uses, at least 1.
+    /// Number of queries that one shot uses, at least 1.
     fn cost(&self) -> u64 {
         (self.multiple / 2).max(1)
     }
@@ -213,7 +218,7 @@ impl Depth {
         Ok(())
     }
 
-    /// From fractions of hits to `sin^2` of the multiple: odd ones show it, even ones what remains.
+    /// Converts fractions of hits to `sin^2` of the multiple; an even multiple shows 1 minus that.
     fn sines(&self, (low, high): (f64, f64)) -> (f64, f64) {
         if self.is_odd() {
             (low, high)

@@ -1,4 +1,4 @@
-//! What iterative estimation promises.
+//! Tests of iterative estimation.
 
 use super::*;
 use crate::estimators::{AmplitudeEstimator, Noise, Problem};
@@ -13,7 +13,7 @@ fn settings(queries: u64, error: Option<f64>) -> Settings {
     }
 }
 
-/// Runs on a uniform in [0, 1]: the mean of the queries, the fraction of runs within the error.
+/// The mean of the queries and the fraction of runs within the error, for a uniform in [0, 1].
 fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f64, f64) {
     let (mut queries, mut within) = (0.0, 0.0);
     for run in 0..runs {
@@ -31,10 +31,11 @@ fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f
     (queries, within)
 }
 
-/// Rall & Fuller measure 3.99/error on average at a confidence of 95 %, for an error of the
-/// amplitude's root. (Their method as published, run on roots uniform in [0, 1], takes 4.05/error
-/// in this unit.) Here it is a tenth more, for intervals that keep their coverage though they are
-/// looked at often.
+/// Compares with Rall & Fuller, who measure 3.99/error on average at a confidence of 95 %.
+///
+/// Their error is that of the amplitude's root. (Their method as published, run on roots uniform in
+/// [0, 1], takes 4.05/error in this unit.) Here the number is a tenth more, because intervals keep
+/// their coverage although they are checked after every batch.
 #[test]
 fn chebyshev_takes_the_published_queries() {
     let error = 1e-4;
@@ -45,8 +46,9 @@ fn chebyshev_takes_the_published_queries() {
     assert!(within > 0.94, "{within}");
 }
 
-/// The authors' bounds on the queries: (50/error) ln((2/alpha) log2(pi/(4 error))) and
-/// (61/error) ln(5.2/alpha).
+/// Checks the authors' bounds on the queries.
+///
+/// They are (50/error) ln((2/alpha) log2(pi/(4 error))) and (61/error) ln(5.2/alpha).
 #[test]
 fn iterations_keep_the_published_bounds() {
     for error in [1e-2, 1e-3, 1e-5] {
@@ -67,7 +69,7 @@ fn iterations_keep_the_published_bounds() {
     }
 }
 
-/// The failure probabilities at all query depths add up to the whole failure probability.
+/// Checks that the failure probabilities of all query depths add up to the whole.
 #[test]
 fn failures_add_up_to_the_failure_probability() {
     let goal = Goal::new(&settings(1, Some(1e-6)), 1.0);
@@ -94,7 +96,7 @@ fn failures_add_up_to_the_failure_probability() {
     }
 }
 
-/// A state returns with probability cos^2(2k pi theta), for the queries of its iterations.
+/// Checks that a state returns with probability cos^2(2k pi theta), with k queries.
 #[test]
 fn returns_of_the_state_are_even_multiples() {
     let problem = Problem {

@@ -1,4 +1,4 @@
-//! How likely what was measured is under each angle.
+//! The likelihood of each angle, given the measurements.
 //!
 //! With h_j good indices among n_j after k_j iterations, m_j = 2 k_j + 1,
 //!
@@ -7,12 +7,12 @@
 //! p_j = r_j sin^2(m_j pi theta) + (1 - r_j) sin^2(pi theta),
 //! ```
 //!
-//! r_j being the probability that a shot is intact. Without noise each term is concave between two
-//! multiples of half a turn of `m_j theta`, for the logarithms of sine and cosine are; so L is
-//! concave wherever no term crosses one.
+//! where r_j is the probability that a shot is intact. Without noise each term is concave between
+//! two multiples of half a turn of `m_j theta`, because the logarithms of sine and cosine are. L is
+//! therefore concave between two angles if no term crosses a multiple between them.
 //!
-//! Terms are taken relative to their largest value, at `p = h/n`: they are never positive, and
-//! differences between likely angles keep their digits however many shots there are.
+//! Terms are relative to their largest value, at `p = h/n`. They are never positive, and
+//! differences between likely angles keep their digits for any number of shots.
 
 use crate::counting::binomial::{deviance, ln_probability};
 use crate::estimators::turns::{HALF, sine_squared};
@@ -32,7 +32,7 @@ pub(super) struct Level {
 type Fraction = (f64, f64);
 
 impl Level {
-    /// `h ln p + (n - h) ln q`, less its largest value.
+    /// `h ln p + (n - h) ln q`, minus its largest value.
     fn term(&self, (p, _): Fraction) -> f64 {
         let (hits, shots) = (self.hits as f64, self.shots as f64);
         let difference = hits - shots * p;
@@ -51,8 +51,9 @@ impl Level {
         self.mixed(sine_squared(self.multiple.wrapping_mul(angle)), any)
     }
 
-    /// An upper bound of the term over angles in `low ..= high`, given the fractions of all indices
-    /// at both ends.
+    /// An upper bound of the term over angles in `low ..= high`.
+    ///
+    /// `any` are the fractions of good indices among all at `low` and at `high`.
     fn bound(&self, low: u64, high: u64, any: (Fraction, Fraction)) -> f64 {
         let (least, most) = self.ideal_range(low, high);
         let least = self.mixed(least, any.0);
@@ -68,7 +69,7 @@ impl Level {
         }
     }
 
-    /// The least and the largest `(sin^2, cos^2)` of the multiple over angles in `low ..= high`.
+    /// The smallest and the largest `(sin^2, cos^2)` of the multiple over angles in `low ..= high`.
     fn ideal_range(&self, low: u64, high: u64) -> (Fraction, Fraction) {
         let width = u128::from(self.multiple) * u128::from(high - low);
         let start = self.multiple.wrapping_mul(low);
@@ -94,7 +95,7 @@ impl Level {
         )
     }
 
-    /// The derivative of the term by the angle in radians.
+    /// The derivative of the term with respect to the angle in radians.
     fn slope(&self, angle: u64) -> f64 {
         let any = sine_squared(angle);
         let (p, q) = self.fraction(angle, any);
@@ -123,8 +124,8 @@ impl Level {
         ln_probability(self.shots as f64, p, self.hits as f64)
     }
 
-    /// The angle nearest to the middle of `low .. high`, and inside, at which this level's fraction
-    /// turns round.
+    /// The angle inside `low .. high`, near its middle, at which this level's fraction has a
+    /// turning point.
     fn turning_point(&self, low: u64, high: u64) -> Option<u64> {
         let multiple = u128::from(self.multiple);
         let half = u128::from(HALF);
@@ -141,7 +142,7 @@ impl Level {
         (low < angle && angle < high).then_some(angle)
     }
 
-    /// Whether fractions under different angles differ enough to matter at all.
+    /// True if the fractions under different angles differ enough to matter.
     fn tells(&self) -> bool {
         self.shots as f64 * self.intact * self.intact > 1e-3
     }
@@ -158,19 +159,21 @@ impl Likelihood {
         self.levels.push(level);
     }
 
-    /// Where to cut a range of angles: at a turning point of the shallowest level that has one
-    /// inside; none within one section of all levels.
+    /// The angle at which to cut `low .. high`: a turning point of the shallowest level with one
+    /// inside.
+    ///
+    /// The result is `None` if the range is within one section of every level.
     pub(super) fn cut(&self, low: u64, high: u64) -> Option<u64> {
         let mut telling = self.levels.iter().filter(|level| level.tells());
         telling.find_map(|level| level.turning_point(low, high))
     }
 
-    /// Whether it is concave between turning points.
+    /// True if L is concave between turning points.
     pub(super) fn is_concave(&self) -> bool {
         self.levels.iter().all(|level| level.intact >= 1.0)
     }
 
-    /// L, relative to what any fractions at all could reach.
+    /// L, relative to its largest value under arbitrary fractions.
     pub(super) fn at(&self, angle: u64) -> f64 {
         let any = sine_squared(angle);
         self.levels
@@ -179,12 +182,12 @@ impl Likelihood {
             .sum()
     }
 
-    /// Its derivative by pi theta.
+    /// The derivative of L with respect to pi theta.
     pub(super) fn slope(&self, angle: u64) -> f64 {
         self.levels.iter().map(|level| level.slope(angle)).sum()
     }
 
-    /// An upper bound over angles in `low ..= high`.
+    /// An upper bound of L over angles in `low ..= high`.
     pub(super) fn bound(&self, low: u64, high: u64) -> f64 {
         let any = (sine_squared(low), sine_squared(high));
         self.levels
@@ -193,7 +196,7 @@ impl Likelihood {
             .sum()
     }
 
-    /// ln of the probability of all that was measured.
+    /// ln of the probability of all measurements.
     pub(super) fn ln_probability(&self, angle: u64) -> f64 {
         self.levels
             .iter()
@@ -201,7 +204,7 @@ impl Likelihood {
             .sum()
     }
 
-    /// Good indices and shots, where there was nothing but paths.
+    /// Numbers of good indices and shots, if all shots were paths.
     pub(super) fn paths(&self) -> Option<(u64, u64)> {
         match self.levels[..] {
             [level] if level.multiple == 1 => Some((level.hits, level.shots)),
@@ -209,8 +212,8 @@ impl Likelihood {
         }
     }
 
-    /// Bits to which an angle must be found within a section, for its error to be far below the
-    /// statistical one.
+    /// Number of bits to which to find an angle within a section, so that its error is far below
+    /// the statistical one.
     pub(super) fn digits(&self) -> u32 {
         let most = self.levels.iter().map(|level| level.shots).max();
         20 + most.unwrap_or(1).ilog2() / 2

@@ -18,23 +18,24 @@ use search::{Found, search};
 /// `mlae`: maximum likelihood amplitude estimation (Suzuki, Uno, Raymond, Tanaka, Onodera &
 /// Yamamoto, *Amplitude estimation without phase estimation*, 2020).
 ///
-/// Shots after 0, 1, 2, 4, ... Grover iterations, the exponential schedule, and the angle under
-/// which all that was measured is likeliest. How many shots are taken at each query depth is said
-/// at [`Mlae::SHOTS`]; what doubling leaves of the queries makes one last query depth.
+/// The estimator takes shots after 0, 1, 2, 4, ... Grover iterations, the exponential schedule. Its
+/// estimate is the angle under which all measurements are likeliest. [`Mlae::SHOTS`] gives the
+/// number of shots at each query depth. The queries that remain after the doubling make one last
+/// query depth.
 ///
-/// Interval: all angles whose ln likelihood is at most [`Mlae::REACH`] times half the square of
-/// the normal quantile below the largest, from the first to the last of them
-/// ([`Estimate::candidates`] says how many ranges they form). That the ratio follows a chi-square
-/// distribution (Wilks) is an asymptotic statement, and here shots are few; the factor is
-/// measured: at a confidence of 95 %, the coverage is 95 to 97 %. Where the queries suffice for
-/// paths alone, it is Clopper & Pearson's interval.
+/// Interval: from the first to the last angle whose ln likelihood is at most [`Mlae::REACH`] times
+/// half the square of the normal quantile below the largest ([`Estimate::candidates`] is the number
+/// of ranges that these angles form). The chi-square distribution of the ratio (Wilks) is an
+/// asymptotic statement, and here shots are few. The factor is therefore measured: at a confidence
+/// of 95 %, the coverage is 95 to 97 %. If the queries suffice for paths alone, it is Clopper &
+/// Pearson's interval.
 ///
-/// Where an error is asked, query depths go only as deep as needed on average, and beyond while the
-/// interval is too wide.
+/// If an error is requested, query depths go only as deep as needed on average, and deeper while
+/// the interval is too wide.
 ///
-/// Known noise enters the likelihood and the schedule: query depths are limited to where a query
-/// tells most about theta, `1/(2 d)` for a depolarising probability d, and shots grow by the square
-/// of the fraction of shots that are lost.
+/// Known noise enters the likelihood and the schedule. Query depths are limited to the one at which
+/// a query is most informative about theta, `1/(2 d)` for a depolarising probability d. The number
+/// of shots is divided by the square of the fraction of shots that stay intact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mlae {
     queries: u64,
@@ -44,15 +45,15 @@ pub struct Mlae {
 }
 
 impl Mlae {
-    /// Shots at the deepest level. With few shots two angles may stay equally likely, and which is
-    /// right is not corrected by what comes later.
+    /// Number of shots at the deepest level. With few shots two angles may stay equally likely, and
+    /// later levels do not correct a wrong choice.
     pub const SHOTS: u64 = 12;
-    /// Shots that each shallower level has in addition. They cost little, and keep the probability
-    /// of a wrong choice falling as fast as what it costs grows: only so does the root mean
-    /// square error fall with the queries (Higgins et al., *Demonstrating Heisenberg-limited
-    /// unambiguous phase estimation without adaptive measurements*, 2009).
+    /// Number of shots that each shallower level has in addition. They cost little. They make the
+    /// probability of a wrong choice fall as fast as its error grows, without which the root mean
+    /// square error would not fall with the queries (Higgins et al., *Demonstrating
+    /// Heisenberg-limited unambiguous phase estimation without adaptive measurements*, 2009).
     pub const MORE_SHOTS: u64 = 3;
-    /// What the asymptotic likelihood ratio is multiplied with.
+    /// Factor on the asymptotic likelihood ratio.
     pub const REACH: f64 = 1.2;
     /// Queries times the interval's half-width, for a around 1/2.
     const COST: f64 = 3.6;
@@ -66,7 +67,7 @@ impl Mlae {
         }
     }
 
-    /// What is likely after what was measured, and the interval of S/N.
+    /// The likeliest angle and its range for `likelihood`, and the interval of S/N.
     fn found(&self, likelihood: &Likelihood) -> (Found, (f64, f64)) {
         let z = normal_quantile(0.5 * (1.0 - self.confidence));
         let found = search(likelihood, Self::REACH * 0.5 * z * z);

@@ -1,4 +1,4 @@
-//! Which query depths are measured, and how often.
+//! The schedule: query depths and numbers of shots.
 
 use super::Mlae;
 use crate::estimators::{MAX_ITERATIONS, Noise};
@@ -7,13 +7,13 @@ use crate::estimators::{MAX_ITERATIONS, Noise};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Schedule {
     noise: Noise,
-    /// Bits of an index.
+    /// Number of bits of an index.
     bits: u32,
-    /// The deepest that is worth measuring.
+    /// The largest query depth that is worth measuring.
     cap: u64,
 }
 
-/// Iterations, and shots after as many.
+/// Number of iterations, and number of shots after them.
 pub(super) type Planned = (u64, u64);
 
 impl Schedule {
@@ -23,10 +23,10 @@ impl Schedule {
             bits,
             cap: 0,
         };
-        // The information of a query grows with k (1 - d)^(2k): up to k = 1 / (2 d).
+        // The information of a query grows with k (1 - d)^(2k), up to k = 1 / (2 d).
         let loss = -libm::log1p(-noise.depolarising);
         let deepest = (0.5 / loss).min(MAX_ITERATIONS as f64).max(1.0) as u64;
-        // Relative to a path's: (2k+1)^2 r^2 / k.
+        // Information relative to a path's: (2k+1)^2 r^2 / k.
         let gain = (2 * deepest + 1) as f64 * schedule.intact(deepest);
         if gain * gain > deepest as f64 {
             schedule.cap = deepest;
@@ -34,7 +34,7 @@ impl Schedule {
         schedule
     }
 
-    /// The probability that a shot after `iterations` is intact.
+    /// The probability that a shot after `iterations` iterations is intact.
     pub(super) fn intact(&self, iterations: u64) -> f64 {
         if iterations == 0 {
             return 1.0;
@@ -42,7 +42,7 @@ impl Schedule {
         self.noise.intact(iterations) * self.noise.read_rightly(self.bits)
     }
 
-    /// What takes at most `queries`, and nearly all of them.
+    /// Levels that take at most `queries` queries, and nearly all of them.
     pub(super) fn levels(&self, queries: u64) -> Vec<Planned> {
         let mut levels = vec![(0, queries)];
         loop {
@@ -56,7 +56,7 @@ impl Schedule {
         let spent = cost(&levels);
         let left = (u128::from(queries) - spent) as u64;
         if deepest == self.cap && deepest > 0 {
-            // No deeper: more shots at every query depth.
+            // No level is deeper than the cap, so every query depth gets more shots.
             let factor = u128::from(queries) / spent;
             for level in &mut levels {
                 level.1 = (u128::from(level.1) * factor) as u64;
@@ -72,15 +72,15 @@ impl Schedule {
         levels
     }
 
-    /// The next level, where the planned ones did not suffice: at most `left` queries.
+    /// The next level after the planned ones, with at most `left` queries.
     ///
-    /// Half as deep again, and not twice: two angles that are a power of 1/2 apart look the same
-    /// to all powers of 2 beyond.
+    /// It is about 1.5 times as deep as the deepest one, not twice: no further power of 2
+    /// distinguishes two angles that are a power of 1/2 apart.
     pub(super) fn beyond(&self, deepest: u64, spent: u64, left: u64) -> Option<Planned> {
         let depth = (deepest + deepest / 2 + 1).min(self.cap);
         let shots = self.shots(depth, 0);
         if depth == 0 || depth == deepest {
-            // As much again, at the same query depth.
+            // Spends the same number of queries again, at the same query depth.
             let shots = spent.min(left) / depth.max(1);
             return (shots > 0).then_some((depth, shots));
         }
@@ -88,7 +88,7 @@ impl Schedule {
         (depth > 0).then_some((depth, shots))
     }
 
-    /// Level 0 and `count` doublings, as far as they are of use.
+    /// Level 0 and up to `count` doublings, no deeper than the cap.
     fn doubling(&self, count: u32) -> Vec<Planned> {
         let depth = |level: u32| if level == 0 { 0 } else { 1_u64 << (level - 1) };
         let last = (0..=count.min(60))
@@ -100,7 +100,7 @@ impl Schedule {
             .collect()
     }
 
-    /// Shots at a query depth, with so many deeper ones to come.
+    /// Number of shots at the query depth `depth`, with `deeper` deeper ones to come.
     fn shots(&self, depth: u64, deeper: u32) -> u64 {
         let intact = self.intact(depth);
         let shots = (Mlae::SHOTS + Mlae::MORE_SHOTS * u64::from(deeper)) as f64;

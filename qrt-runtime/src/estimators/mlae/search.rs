@@ -1,35 +1,35 @@
-//! The largest likelihood, and all angles not far below it.
+//! The search for the largest likelihood, and for all angles that are not far below it.
 //!
-//! Angles are divided from coarse to fine. A range is cut where the shallowest level with a turning
-//! point inside turns; the part with the largest upper bound comes next. What is within one section
-//! of every level is a *peak*: there L is concave, and its maximum is found by bisection of the
-//! slope. Parts whose bound is further below the best peak than asked are left alone, and none
-//! else, so that no peak is missed, however many levels there are: with shots enough at each, few
-//! parts are alive at a time.
+//! The search divides angles from coarse to fine. It cuts a range at a turning point of the
+//! shallowest level that has one inside, and goes on with the part with the largest upper bound. A
+//! part within one section of every level is a *peak*: there L is concave, and bisection of the
+//! slope finds its maximum. The search drops only parts whose bound is below the best peak by more
+//! than the requested reach, so it misses no peak, for any number of levels. With enough shots at
+//! each level, few parts are alive at a time.
 
 use super::likelihood::Likelihood;
 use crate::estimators::turns::HALF;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The most parts that are looked at. What is then still undecided is not left out, but counts as
-/// possible. Runs without noise need some hundreds.
+/// The largest number of parts that the search examines. Parts that are still undecided then count
+/// as possible. Runs without noise need some hundreds.
 const MOST_PARTS: usize = 20_000;
 
-/// What is to be known of a likelihood.
+/// The result of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     /// The likeliest angle.
     pub(super) angle: u64,
     /// The smallest angle at which the likelihood is at most `reach` below its largest value.
     pub(super) low: u64,
-    /// The largest such angle.
+    /// The largest angle at which the likelihood is at most `reach` below its largest value.
     pub(super) high: u64,
-    /// Separate ranges of such angles.
+    /// Number of separate ranges of these angles.
     pub(super) ranges: u32,
 }
 
-/// Angles of `low ..= high`, of which none has a larger L than `bound`.
+/// Angles of `low ..= high`, and an upper bound of L over them.
 #[derive(Clone, Copy, Debug)]
 struct AngleRange {
     low: u64,
@@ -59,17 +59,17 @@ impl PartialEq for AngleRange {
 
 impl Eq for AngleRange {}
 
-/// A local maximum, and the part that it is the largest of.
+/// A local maximum, and the part `low ..= high` in which it is the largest value.
 #[derive(Clone, Copy, Debug)]
 struct Peak {
     low: u64,
     high: u64,
     angle: u64,
-    /// L at the three.
+    /// L at `low`, `angle` and `high`.
     values: [f64; 3],
 }
 
-/// The largest value of `likelihood`, and all angles at which it is at most `reach` less.
+/// Finds the largest value of `likelihood`, and all angles at which it is at most `reach` less.
 pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
     let part = |low: u64, high: u64| AngleRange {
         low,
@@ -88,7 +88,8 @@ pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
             parts.push(next);
             break;
         }
-        // Down to a peak, by the better halves, so that there is soon something to compare with.
+        // Descends to a peak through the better halves, so that bounds soon have a value to compare
+        // with.
         while next.bound >= best - reach {
             looked += 1;
             let Some(cut) = likelihood.cut(next.low, next.high) else {
@@ -112,8 +113,9 @@ pub(super) fn search(likelihood: &Likelihood, reach: f64) -> Found {
     summary(likelihood, &peaks, undecided, best - reach)
 }
 
-/// The peaks of a part without turning points: one, if L is concave there. With noise a part is
-/// divided further, evenly, so that its few peaks are told apart.
+/// The peaks of a part without turning points: one, if L is concave there.
+///
+/// With noise the part is divided further, evenly, so that its few peaks are separate.
 fn peaks_of(likelihood: &Likelihood, low: u64, high: u64) -> impl Iterator<Item = Peak> {
     let pieces = if likelihood.is_concave() { 1 } else { 8 };
     let ends = move |i: u64| {
@@ -131,7 +133,7 @@ fn peak_of(likelihood: &Likelihood, low: u64, high: u64) -> Peak {
         likelihood.slope(angle) > 0.0
     });
     let [first, middle, last] = [low, turn, high].map(|angle| likelihood.at(angle));
-    // At the ends of all angles, and of pieces.
+    // The maximum may be at an end of all angles, or of a piece.
     let (angle, value) = if middle >= first.max(last) {
         (turn, middle)
     } else if first >= last {
@@ -147,8 +149,8 @@ fn peak_of(likelihood: &Likelihood, low: u64, high: u64) -> Peak {
     }
 }
 
-/// Where `low .. high` is divided into angles at which `holds` and angles at which it doesn't, to
-/// 2^-digits of its width.
+/// The angle at which `low .. high` changes from `holds` to its opposite, to 2^-`digits` of the
+/// width.
 fn bisect(low: u64, high: u64, digits: u32, holds: impl Fn(u64) -> bool) -> u64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..digits {
@@ -165,7 +167,7 @@ fn bisect(low: u64, high: u64, digits: u32, holds: impl Fn(u64) -> bool) -> u64 
     low + (high - low) / 2
 }
 
-/// What the peaks and the undecided parts come to; `least` is the smallest L that counts.
+/// Combines the peaks and the undecided parts; `least` is the smallest L that counts.
 fn summary(
     likelihood: &Likelihood,
     peaks: &[Peak],
@@ -191,7 +193,8 @@ fn summary(
             bisect(peak.angle, peak.high, digits, inside)
         }
     };
-    // Ranges touch where a cut lies within one; elsewhere what is between peak and cut is out.
+    // Ranges touch if a cut lies within one. Otherwise the angles between range and cut do not
+    // count.
     let mut ranges: Vec<(u64, u64)> = undecided;
     ranges.extend(peaks.iter().map(|peak| (low_end(peak), high_end(peak))));
     ranges.sort_unstable();

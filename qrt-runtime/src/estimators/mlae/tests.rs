@@ -1,4 +1,4 @@
-//! What maximum likelihood estimation promises.
+//! Tests of maximum likelihood estimation.
 
 use super::likelihood::{Level, Likelihood};
 use super::schedule::Schedule;
@@ -27,8 +27,7 @@ fn likelihood(levels: &[(u64, u64, u64)], intact: f64) -> Likelihood {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
-    /// The largest of a fine grid, and its first and last point within reach, whether the
-    /// measurements fit any angle or not.
+    /// Compares with the values on a fine grid, for measurements that fit an angle and for others.
     #[test]
     fn no_angle_is_likelier_than_the_one_found_and_none_within_reach_is_left_out(
         seed in any::<u64>(), levels in 1..6_u32, shots in 1..20_u64, noise in any::<bool>(),
@@ -56,7 +55,7 @@ proptest! {
                 prop_assert!(found.low <= i * step + 1000 && i * step <= found.high + 1000);
             }
         }
-        // The ends are where it falls short.
+        // At the ends, the likelihood is `reach` below its largest value.
         for end in [found.low, found.high] {
             let value = likelihood.at(end) - best + reach;
             let edge = end <= 1000 || end >= HALF - 1000;
@@ -65,7 +64,7 @@ proptest! {
     }
 }
 
-/// One binomial: the fraction itself, and the ends where n KL(h/n, p) is the reach.
+/// Checks one binomial: the fraction itself, and the ends, at which n KL(h/n, p) is the reach.
 #[test]
 fn paths_alone_give_their_share() {
     for (hits, shots) in [(3, 10), (0, 7), (7, 7), (1, 1_000_000), (1 << 49, 1 << 51)] {
@@ -91,8 +90,9 @@ fn paths_alone_give_their_share() {
     }
 }
 
-/// Whatever the query depth: all phases are measured as they are expected, and the angle is found
-/// to far less than a section of the deepest.
+/// Checks 42 levels with the expected hits at all phases.
+///
+/// The angle is found to far less than a section of the deepest level.
 #[test]
 fn the_peak_is_found_at_any_depth() {
     let truth = of_sine_squared(0.2371);
@@ -140,7 +140,7 @@ fn schedules_keep_to_the_queries_and_use_them() {
             }
         }
     }
-    // Without noise, the published doubling.
+    // Without noise, query depths double as published.
     let levels = Schedule::new(Noise::NONE, 20).levels(1000);
     let depths: Vec<u64> = levels.iter().map(|level| level.0).collect();
     assert_eq!(depths, [0, 1, 2, 4, 8, 16, 32, 3]);
@@ -149,7 +149,9 @@ fn schedules_keep_to_the_queries_and_use_them() {
     assert_eq!(levels.last().map(|level| level.0), Some(49));
 }
 
-/// Depolarising and readout noise, known and not. Unknown noise is taken for a signal.
+/// Checks the coverage with depolarising and readout noise, known and not.
+///
+/// Unknown noise is taken for a signal.
 #[test]
 fn known_noise_is_reckoned_with() {
     let noise: Noise = "depolarising=0.005,readout=0.01".parse().unwrap();

@@ -1,36 +1,36 @@
-//! FLIP: how different two pictures look to someone who flips between them.
+//! FLIP: the difference between two pictures that a viewer sees when flipping between them.
 //!
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", Proceedings of the ACM
 //! on Computer Graphics and Interactive Techniques 3(2), 2020; for radiance, P. Andersson et al.,
 //! "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics Short Papers, 2021. The
-//! constants are theirs.
+//! constants are from these papers.
 
 use super::{Image, SizesDiffer, same_size};
 use std::f64::consts::PI;
 
-/// Pixels of a display within a degree of sight: of one that is 3,840 pixels and 0.7 m wide, seen from
-/// 0.7 m.
+/// Pixels per degree of visual angle, for a display that is 3,840 pixels and 0.7 m wide, seen from
+/// a distance of 0.7 m.
 pub const PIXELS_PER_DEGREE: f64 = 0.7 * 3840.0 / 0.7 * PI / 180.0;
 
-/// The error of every pixel, from 0, none, to 1, as great as can be.
+/// The error of every pixel, from 0 (no difference) to 1 (the largest difference).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorMap {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Row by row from the top, each row from the left.
+    /// The errors row by row from the top, each row from the left.
     pub values: Vec<f64>,
 }
 
 impl ErrorMap {
-    /// The mean over pixels: what is called "the FLIP" of two pictures.
+    /// The mean over pixels, usually called "the FLIP" of two pictures.
     pub fn mean(&self) -> f64 {
         self.values.iter().sum::<f64>() / self.values.len().max(1) as f64
     }
 
-    /// The picture of it in the colours that are used for FLIP, from black by purple to yellow (magma),
-    /// as linear RGB.
+    /// Converts the map to a picture, as linear RGB, in FLIP's usual colours: from black through
+    /// purple to yellow (magma).
     pub fn picture(&self) -> Image {
         Image {
             width: self.width,
@@ -41,7 +41,7 @@ impl ErrorMap {
     }
 }
 
-/// FLIP of pictures as a display shows them: linear RGB from 0 to 1, which is clipped there.
+/// FLIP of display pictures. Values are linear RGB from 0 to 1 and are clamped to that range.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -56,9 +56,9 @@ pub fn flip_of_display(
     }))
 }
 
-/// FLIP of pictures of radiance: the greatest error of each pixel over all the exposures, a stop or
-/// less apart, from that which shows the reference's brightest pixel to that which shows the median.
-/// Each exposure is shown through the ACES curve.
+/// FLIP of pictures of radiance: the largest error of each pixel over several evenly spaced
+/// exposures. They range from the exposure that shows the reference's brightest pixel to the one
+/// that shows its median pixel. Each exposure is shown through the ACES curve.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -86,12 +86,12 @@ pub fn flip_of_radiance(
     })
 }
 
-/// Numerator and denominator, by falling powers, of the curve that displays are given.
+/// Numerator and denominator, by falling powers, of the ACES tone curve.
 const ACES: [[f64; 3]; 2] = [
     [0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0],
     [0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14],
 ];
-/// What the curve makes of the brightest pixel shown well.
+/// The curve's value for the brightest pixel that is shown well.
 const SHOWN: f64 = 0.85;
 
 fn aces(value: f64) -> f64 {
@@ -99,16 +99,17 @@ fn aces(value: f64) -> f64 {
     (over / under).clamp(0.0, 1.0)
 }
 
-/// The exposures at which a picture is looked at, in stops.
+/// The exposures at which the pictures are compared, in stops.
 fn exposures(reference: &Image) -> Vec<f64> {
     let luminance = |&[r, g, b]: &[f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let mut luminances: Vec<f64> = reference.pixels.iter().map(luminance).collect();
     luminances.sort_by(f64::total_cmp);
     let at = |place: usize| luminances.get(place).copied().unwrap_or(0.0);
-    // Of an even number of pixels, the authors' program takes the upper of the two in the middle.
+    // For an even number of pixels, the authors' program takes the upper of the two middle ones.
     let median = at(luminances.len() / 2);
     let brightest = at(luminances.len().saturating_sub(1));
-    // Where the curve has that value: the greater root.
+    // The curve has the value `SHOWN` at the roots of a quadratic; the greater root is the one
+    // needed.
     let [a, b, c] = std::array::from_fn(|k| ACES[0][k] - SHOWN * ACES[1][k]);
     let root = libm::sqrt(b * b - 4.0 * a * c);
     let shown = ((-b - root) / (2.0 * a)).max((-b + root) / (2.0 * a));
@@ -121,7 +122,7 @@ fn exposures(reference: &Image) -> Vec<f64> {
     (0..count).map(|n| first + n as f64 * step).collect()
 }
 
-/// A quantity of every pixel.
+/// One value for every pixel.
 type Plane = Vec<f64>;
 
 fn of_display(
@@ -158,13 +159,14 @@ fn of_display(
     }
 }
 
-/// What the eye has of a picture.
+/// A picture as the eye perceives it.
 struct Seen {
-    /// L*, a* and b* of what is left at this distance; a* and b* weighted by L*, after Hunt.
+    /// L*, a* and b* after the contrast filter for this distance; a* and b* weighted by L*, after
+    /// Hunt.
     lab: Vec<[f64; 3]>,
-    /// How strong an edge is there.
+    /// The strength of the edge at each pixel.
     edges: Plane,
-    /// How much of a point.
+    /// The strength of the point at each pixel.
     points: Plane,
 }
 
@@ -175,11 +177,11 @@ const SENSITIVITY: [&[[f64; 2]]; 3] = [
     &[[1.0, 0.0053]],
     &[[34.1, 0.04], [13.5, 0.025]],
 ];
-/// The width of an edge that is noticed best, in degrees.
+/// The width of the edge that the eye notices best, in degrees.
 const FEATURE: f64 = 0.082;
 
 impl Seen {
-    /// Of the planes of Y, Cx and Cz.
+    /// Filters `planes`, which hold Y, Cx and Cz.
     fn new(planes: &[Plane; 3], size: [usize; 2], pixels_per_degree: f64) -> Self {
         let widest = libm::sqrt(0.04 / (2.0 * PI * PI));
         let radius = libm::ceil(3.0 * widest * pixels_per_degree) as isize;
@@ -192,7 +194,7 @@ impl Seen {
                 })
             });
             let kernels: Vec<Vec<f64>> = kernels.collect();
-            // The sum over both directions.
+            // The sum of the weights over both directions.
             let total = kernels.iter().map(|kernel| {
                 let sum: f64 = kernel.iter().sum();
                 sum * sum
@@ -242,7 +244,7 @@ fn kernel(radius: isize, value: impl Fn(f64) -> f64) -> Vec<f64> {
     (-radius..=radius).map(|x| value(x as f64)).collect()
 }
 
-/// The kernel whose positive weights add up to 1, and the negative ones to -1.
+/// Scales the positive weights of a kernel to a sum of 1, and the negative ones to a sum of -1.
 fn halves(kernel: Vec<f64>) -> Vec<f64> {
     let sum = |sign: f64| -> f64 {
         let part = kernel.iter().map(|weight| (sign * weight).max(0.0));
@@ -257,7 +259,8 @@ fn halves(kernel: Vec<f64>) -> Vec<f64> {
     scaled.collect()
 }
 
-/// Filters rows by `across` and columns by `down`; beyond its border a picture goes on as there.
+/// Filters rows by `across` and columns by `down`. The border pixels are repeated beyond the
+/// border.
 fn separable(plane: &[f64], [width, height]: [usize; 2], across: &[f64], down: &[f64]) -> Plane {
     let at = |place: usize, tap: usize, radius: usize, length: usize| {
         (place + tap).saturating_sub(radius).min(length - 1)
@@ -284,8 +287,8 @@ fn separable(plane: &[f64], [width, height]: [usize; 2], across: &[f64], down: &
     out
 }
 
-/// How far colours are apart, from 0 to 1: HyAB, to the power of 0.7, with the greater part of the
-/// range for what is not too far.
+/// The distance of two colours, from 0 to 1: HyAB to the power of 0.7. Errors up to 0.4 of the
+/// largest one are mapped to the range from 0 to 0.95, larger errors to the rest.
 fn colour_error(reference: [f64; 3], test: [f64; 3]) -> f64 {
     let corner = |rgb: [f64; 3]| hunt(lab_of_xyz(xyz_of_rgb(rgb)));
     let most = hyab(corner([0.0, 1.0, 0.0]), corner([0.0, 0.0, 1.0]));
@@ -306,7 +309,7 @@ fn hunt([l, a, b]: [f64; 3]) -> [f64; 3] {
     [l, 0.01 * l * a, 0.01 * l * b]
 }
 
-/// Linear sRGB to X, Y, Z, in fractions of white's.
+/// Converts linear sRGB to X, Y, Z as fractions of those of white.
 fn xyz_of_rgb(rgb: [f64; 3]) -> [f64; 3] {
     let xyz = times(&XYZ_OF_RGB, rgb);
     std::array::from_fn(|k| xyz[k] / WHITE[k])
@@ -323,7 +326,7 @@ fn times(matrix: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     matrix.map(|[a, b, c]| a * x + b * y + c * z)
 }
 
-/// From the primaries and the white of sRGB.
+/// Linear sRGB to X, Y, Z, from the primaries and the white of sRGB.
 const XYZ_OF_RGB: [[f64; 3]; 3] = [
     [
         10_135_552.0 / 24_577_794.0,
@@ -341,7 +344,7 @@ const XYZ_OF_RGB: [[f64; 3]; 3] = [
         70_074_185.0 / 73_733_382.0,
     ],
 ];
-/// Its inverse.
+/// The inverse of [`XYZ_OF_RGB`].
 const RGB_OF_XYZ: [[f64; 3]; 3] = inverse(XYZ_OF_RGB);
 /// X, Y and Z of white.
 const WHITE: [f64; 3] = [
@@ -377,7 +380,7 @@ const fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     cofactors
 }
 
-/// Y, Cx and Cz: lightness, red against green and yellow against blue, linear in X, Y and Z.
+/// Y, Cx and Cz: lightness, red-green and yellow-blue, linear in X, Y and Z.
 fn opponent_of_xyz([x, y, z]: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
@@ -402,7 +405,7 @@ fn lab_of_xyz(xyz: [f64; 3]) -> [f64; 3] {
 /// The colour map magma of N. J. Smith and S. van der Walt, as a polynomial of degree 6 by M. Zucker
 /// (both in the public domain), in linear RGB.
 fn magma(value: f64) -> [f64; 3] {
-    /// By falling powers: red, green and blue.
+    /// Coefficients of red, green and blue, by falling powers.
     const POWERS: [[f64; 3]; 7] = [
         [
             18.655_705_065_918_83,

@@ -1,4 +1,4 @@
-//! How far two pictures are from each other.
+//! Measures of the difference between two pictures.
 
 mod flip;
 #[cfg(test)]
@@ -8,15 +8,16 @@ pub use flip::{ErrorMap, PIXELS_PER_DEGREE, flip_of_display, flip_of_radiance};
 
 use super::Image;
 
-/// What keeps the relative error of a dark pixel finite, as in most papers on rendering.
+/// Added to the square of the reference so that the relative error of a dark pixel stays finite, as
+/// in most papers on rendering.
 const DARK: f64 = 0.01;
 
-/// Two pictures of different sizes.
+/// The error that two pictures have different sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the pictures have {} x {} and {} x {} pixels, and those of the same size can be compared",
     .sizes[0][0], .sizes[0][1], .sizes[1][0], .sizes[1][1])]
 pub struct SizesDiffer {
-    /// Width and height of the one and the other, in pixels.
+    /// Width and height of the reference and of the test picture, in pixels.
     pub sizes: [[u32; 2]; 2],
 }
 
@@ -25,19 +26,19 @@ pub struct SizesDiffer {
 pub struct Difference {
     /// The root of the mean squared difference, over pixels and channels.
     pub rmse: f64,
-    /// The same of red, green and blue.
+    /// The root of the mean squared difference of red, green and blue, over pixels.
     pub rmse_rgb: [f64; 3],
     /// The mean over pixels and channels of `(test - reference)^2 / (reference^2 + 0.01)`.
     pub relative_mse: f64,
-    /// The mean difference, test minus reference, of red, green and blue: what does not average out.
+    /// The mean difference, test minus reference, of red, green and blue. Noise averages out of it.
     pub bias_rgb: [f64; 3],
     /// The mean of the reference's red, green and blue.
     pub reference_mean: [f64; 3],
-    /// The greatest difference of a channel, without its sign.
+    /// The largest absolute difference of a channel.
     pub greatest: f64,
 }
 
-/// Compares pixel by pixel.
+/// Compares two pictures pixel by pixel.
 ///
 /// # Errors
 /// If the sizes differ.

@@ -3,7 +3,8 @@ use crate::image::srgb;
 
 const SIZE: [usize; 2] = [48, 32];
 
-/// Discs on a gradient; the test is one column to the right, and a corner of it is noisy. From 0 to 1.
+/// Discs on a gradient, from 0 to 1. The test picture is shifted right by one column, and one of
+/// its corners is noisy.
 fn shown() -> [Vec<[f64; 3]>; 2] {
     let picture = |x: i64, y: i64| {
         let disc = (x - 20).pow(2) + (y - 15).pow(2) < 81;
@@ -43,8 +44,8 @@ fn image(pixels: Vec<[f64; 3]>) -> Image {
     }
 }
 
-/// Mean and pixels (0, 0), (11, 15), (30, 8) and (40, 27) by the program of FLIP's authors:
-/// benches/peers/flip.py.
+/// Checks the mean and the pixels (0, 0), (11, 15), (30, 8) and (40, 27) against the program of
+/// FLIP's authors: benches/peers/flip.py.
 fn check(map: &ErrorMap, mean: f64, pixels: [f64; 4]) {
     let close = |found: f64, asked: f64, what: &str| {
         assert!((found - asked).abs() < 2e-5, "{what}: {found} for {asked}");
@@ -107,7 +108,7 @@ fn a_picture_is_no_different_from_itself_and_black_from_white_is() {
     assert!(same.values.iter().all(|&value| value == 0.0));
     let same = flip_of_radiance(&reference, &reference, PIXELS_PER_DEGREE).unwrap();
     assert!(same.values.iter().all(|&value| value == 0.0));
-    // All black: there is no exposure that would show anything, and no value that is none.
+    // For an all-black reference, no exposure shows anything; the result must still be a number.
     let [black, white] = [0.0, 1.0].map(|value| image(vec![[value; 3]; SIZE[0] * SIZE[1]]));
     let flip = flip_of_display(&black, &white, PIXELS_PER_DEGREE)
         .unwrap()
@@ -128,7 +129,7 @@ fn the_colours_of_errors_go_from_black_to_yellow() {
     };
     let levels = map.picture().pixels.into_iter();
     let levels: Vec<[u8; 3]> = levels.map(|rgb| rgb.map(|v| srgb::level(v).0)).collect();
-    // Of the table: 0 0 4, 183 55 121, 252 253 191.
+    // The map's own table has 0 0 4, 183 55 121, 252 253 191.
     for (found, asked) in levels
         .iter()
         .zip([[0, 0, 4], [183, 55, 121], [252, 253, 191]])

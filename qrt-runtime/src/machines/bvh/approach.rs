@@ -1,40 +1,43 @@
-//! The rays of all lanes, on their way to the tree: which of them meet the box around it, and where.
+//! The approach of all lanes' rays to the tree: the rays that meet the box around it, and the
+//! distances at which they enter it.
 
 use crate::machines::lanes::{Lanes, lanes};
 use qrt_core::tracer::{Arith, Ray};
 
-/// Lanes of a value, at most.
+/// Largest number of lanes of a value.
 pub(super) const MOST_RAYS: usize = 16;
 
-/// How much longer one component of a direction may be than another where boxes are concerned, at
-/// most: what is left of a shorter one moves a ray on its way through the tree by less than its
-/// slack.
+/// Largest ratio of two components of a direction in box tests. A shorter component is treated as
+/// if it had this ratio; on its way through the tree, that moves a ray by less than its slack.
 const STEEPEST: f64 = (1_u64 << 40) as f64;
 
-/// Within this factor of 1 are the lengths of directions that single precision can serve.
+/// Largest factor by which a direction's length may differ from 1 for single precision to be
+/// usable.
 const LONGEST: f64 = (1_u64 << 40) as f64;
 
-/// What a component of a direction is not shorter than, so that no box's test has 0 times infinity.
+/// Least length of a component of a direction, so that no box test computes 0 times infinity.
 const SHORTEST: f64 = 1e-100;
 
-/// By how much single precision may be wrong about where a ray meets a box, as a fraction of the coordinates
-/// of both: more than a dozen roundings.
+/// Largest error of single precision in the place where a ray meets a box, as a fraction of the
+/// coordinates of both: more than a dozen roundings.
 const SLACK: f64 = 1.0 / (1_u64 << 20) as f64;
 
-/// What rounding a point on the way to the tree may move it by, as a fraction of the way.
+/// Largest rounding error of a point on the way to the tree, as a fraction of the origin's
+/// coordinate.
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
-/// Rays, and where they come to the box around the tree.
+/// Rays, and the distances at which they enter the box around the tree.
 pub(super) struct Approach<S: pulp::Simd, const W: usize> {
-    /// Whether the ray meets the box.
+    /// True if the ray meets the box.
     pub(super) meets: [S::m64s; W],
-    /// At which distance, in lengths of its direction.
+    /// Distance of the entry, in lengths of the ray's direction.
     pub(super) near: [S::f64s; W],
     inverse: [[S::f64s; W]; 3],
 }
 
 impl<S: pulp::Simd, const W: usize> Approach<S, W> {
-    /// Of those `wanted`, up to the distance `limit`, to the box from `low` to `high`.
+    /// Computes the approach of the `wanted` rays, up to the distance `limit`, to the box from
+    /// `low` to `high`.
     #[inline(always)]
     pub(super) fn new<'i>(
         cx: &mut Lanes<'i, S, W>,
@@ -69,8 +72,8 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
         }
     }
 
-    /// Makes the rays ready for boxes whose coordinates are at most `greatest`; `start` is the distance
-    /// from which on.
+    /// Writes the rays to `lines`, for boxes whose coordinates are at most `greatest`. Box tests
+    /// measure distances from the point at distance `start`.
     #[inline(always)]
     pub(super) fn make_ready<'i>(
         &self,
@@ -95,7 +98,8 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
         for axis in 0..3 {
             let way = cx.mul(start, ray.direction[axis]);
             let origin = cx.add(ray.origin[axis], way);
-            // How far the ray may seem to be from there, and what rounding made of the way there.
+            // The slack covers the rounding of the box tests in single precision, and of the point
+            // at `start`.
             let (near, far) = (cx.abs(origin), cx.abs(ray.origin[axis]));
             let greatest = cx.real(greatest);
             let near = cx.add(near, greatest);
@@ -109,7 +113,7 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
             let (low, high) = (cx.mul(low, inverse), cx.mul(high, inverse));
             let (enter, leave) = (cx.max(low, high), cx.min(low, high));
             let (enter, leave) = (cx.neg(enter), cx.neg(leave));
-            // A ray of any other length meets all boxes.
+            // A ray whose direction is too long or too short for single precision meets all boxes.
             let inverse = cx.select(served, inverse, zero);
             let enter = cx.select(served, enter, before);
             let leave = cx.select(served, leave, beyond);
@@ -141,37 +145,39 @@ fn keep_single<V: pulp::bytemuck::Pod>(value: &[V], kept: &mut [f32; MOST_RAYS])
     }
 }
 
-/// Rays, one a lane, as walks read them.
+/// Rays in the form that walks read, one per lane.
 ///
-/// Boxes see them in single precision, and from where they come to the tree: the plane of a box is
-/// entered no later than at the distance `plane inverse + enter` from there, and left no earlier than
-/// at `plane inverse + leave`. Both hold what rounding may add up to.
+/// Box tests use single precision, and measure distances from the point at which the ray comes to
+/// the tree. From there, the ray enters the plane of a box no earlier than at the distance
+/// `plane inverse + enter`, and leaves it no later than at `plane inverse + leave`. Both offsets include
+/// the largest possible sum of rounding errors.
 #[derive(Debug, Default)]
 #[repr(C, align(64))]
 pub(super) struct Lines {
-    /// Along x, y, z, x, y, so that those from any axis on are neighbours.
+    /// Components along x, y, z, x, y, so that three components from any axis on are adjacent.
     pub(super) origin: [[f64; MOST_RAYS]; 5],
     pub(super) direction: [[f64; MOST_RAYS]; 5],
     /// The plane that the ray leaves.
     pub(super) from: [u64; MOST_RAYS],
-    /// The distance from which on boxes see it, in lengths of its direction.
+    /// Distance from which box tests measure, in lengths of the ray's direction.
     pub(super) start: [f64; MOST_RAYS],
-    /// The least and the greatest coordinates of the point from which on boxes see it.
+    /// Least and greatest coordinates of the point at `start`.
     pub(super) points: [[[f32; MOST_RAYS]; 3]; 2],
-    /// Of each component of the direction.
+    /// Inverse of each component of the direction.
     pub(super) inverse: [[f32; MOST_RAYS]; 3],
     pub(super) enter: [[f32; MOST_RAYS]; 3],
     pub(super) leave: [[f32; MOST_RAYS]; 3],
 }
 
 impl Lines {
-    /// A distance from the origin of the ray in `lane` as one from where boxes see it, or little more.
+    /// Converts a distance from the origin of the ray in `lane` to a distance from `start`, or
+    /// slightly more.
     #[inline(always)]
     pub(super) fn boxed(&self, lane: usize, distance: f64) -> f32 {
         (distance - self.start[lane % MOST_RAYS]) as f32 * (1.0 + 4.0 * f32::EPSILON)
     }
 
-    /// By axis: whether the direction of the ray in `lane` is negative.
+    /// Returns, by axis, whether the direction of the ray in `lane` is negative.
     #[inline(always)]
     pub(super) fn backwards(&self, lane: usize) -> [bool; 3] {
         let [x, y, z] = &self.inverse;

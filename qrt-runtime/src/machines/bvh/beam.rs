@@ -1,8 +1,8 @@
 //! Rays that walk the tree together.
 //!
-//! Rays from the camera are neighbours: those of a value mostly cross the same pixel. They walk
-//! the tree together, as a beam: a node is tried once for all of them, and each ray by itself only
-//! at the packets. Rays that were scattered walk alone.
+//! Rays from the camera are neighbours: the rays of a value mostly cross the same pixel. They walk
+//! the tree together, as a beam: a node is tried once for all of them, and only a packet is tried
+//! for each ray by itself. Scattered rays walk alone.
 
 use super::approach::{Lines, MOST_RAYS};
 use super::walk::{Found, MOST_LANES, NearestFace, Waiting, columns};
@@ -10,7 +10,7 @@ use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 use crate::machines::masks::bits_of_singles;
 
-/// Fewer rays than this are no beam.
+/// Smallest number of rays that form a beam.
 pub(super) const FEW_RAYS: usize = 4;
 
 /// Rays that go the same way along each axis, and start equally far from their origins.
@@ -18,7 +18,7 @@ pub(super) struct Beam<'a> {
     lines: &'a Lines,
     /// The lanes of the rays, as bits.
     rays: u64,
-    /// The least and the greatest coordinates of the points where they start.
+    /// Least and greatest coordinates of the points at which the rays start.
     origin: [[f32; 3]; 2],
     /// The least and the greatest inverse direction.
     inverse: [[f32; 3]; 2],
@@ -26,7 +26,7 @@ pub(super) struct Beam<'a> {
 }
 
 impl<'a> Beam<'a> {
-    /// Of the `rays` among `lines`, if they go the same way.
+    /// Creates a beam of the `rays` among `lines`, if they go the same way along each axis.
     #[inline(always)]
     pub(super) fn around(lines: &'a Lines, rays: u64) -> Option<Self> {
         let mut beam = Self {
@@ -56,7 +56,7 @@ impl<'a> Beam<'a> {
         slow.iter().zip(fast).all(same).then_some(beam)
     }
 
-    /// The rays that meet box `child` of `node` within their limits, as bits.
+    /// Returns the rays that meet box `child` of `node` within their limits, as bits.
     #[inline(always)]
     fn meeting<S: pulp::Simd>(
         &self,
@@ -88,9 +88,9 @@ impl<'a> Beam<'a> {
 }
 
 impl Bvh {
-    /// The nearest faces of the rays of `beam`, by lane, where they are nearer than what was `found`.
-    /// `stack` has room for all that may wait: numbers of nodes and their children, as
-    /// `WIDE node + child`.
+    /// Finds the nearest faces of the rays of `beam`, by lane, if they are nearer than the faces in
+    /// `found`. `stack` must have room for all waiting entries: numbers of nodes and their
+    /// children, as `WIDE node + child`.
     #[inline(always)]
     pub(super) fn walk_together<S: pulp::Simd>(
         &self,
@@ -147,8 +147,9 @@ impl Bvh {
 }
 
 impl Node {
-    /// Puts the children that a ray of the beam may meet within `limit` after the first `waiting` on the
-    /// stack, the nearest last; returns how many then wait. `number` is the node's.
+    /// Pushes the children that a ray of the beam may meet within `limit`, the nearest last, onto
+    /// the `waiting` entries of the stack, and returns the new number of entries. `number` is the
+    /// node's number.
     #[inline(always)]
     fn open_to_beam<S: pulp::Simd>(
         &self,

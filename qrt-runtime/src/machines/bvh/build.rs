@@ -1,21 +1,20 @@
 //! Building the tree: a binary tree by a binned surface area heuristic, then nodes of up to eight
 //! children that cover it at the least cost (Ylitie, Karras and Laine 2017).
 //!
-//! The faces of a leaf share a main axis, so that a packet sees a ray with its axes permuted in one
-//! way only.
+//! The faces of a leaf share a main axis, so that a packet permutes a ray's axes in one way only.
 
 use super::{Child, FACES, Node, WIDE};
 use glam::DVec3;
 use qrt_core::tracer::Geometry;
 
-/// Levels of the binary tree that may follow the heuristic; below, parts are halved.
+/// Number of levels of the binary tree that follow the heuristic; deeper parts are halved.
 const FREE_DEPTH: usize = 32;
 
-/// Candidate planes per axis.
+/// Bins per axis. The planes between them are the candidates for a cut.
 const BINS: usize = 32;
 
-/// How far boxes reach beyond their faces at least, in stage units: more than the rounding of a
-/// crossing. Beyond that they reach several of the edges' tolerances.
+/// Least distance by which boxes reach beyond their faces, in stage units: more than the rounding
+/// of a crossing. Boxes also reach several edge tolerances beyond their faces.
 const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
 
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +67,8 @@ pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
                 high: corner,
             })
         });
-        // The same fraction of a far corner's coordinates, for planes that were averaged.
+        // The margin includes the same fraction of a far corner's coordinates, for planes that were
+        // averaged.
         let margin = margin * (1.0 + around.high.abs().max(around.low.abs()).max_element());
         Bounds {
             low: around.low - margin,
@@ -91,8 +91,8 @@ pub(super) fn axes(geometry: &Geometry) -> Vec<u8> {
     axes
 }
 
-/// The tree over those of the faces with these `boxes` and main `axes` that are not `large`, whose numbers
-/// are in order.
+/// Builds the tree over the faces with these `boxes` and main `axes`, except the faces in `large`,
+/// whose numbers are in ascending order.
 pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
     let all = 0..boxes.len() as u32;
     let mut faces: Vec<u32> = all
@@ -117,17 +117,18 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
     tree
 }
 
-/// Faces of the binary tree.
+/// A part of the binary tree: some of the faces.
 struct Subtree {
     bounds: Bounds,
     content: Content,
 }
 
 enum Content {
-    /// They make one packet, which sees a ray along this axis.
+    /// One packet: its faces and their main axis.
     Packet { faces: Vec<u32>, axis: u8 },
-    /// Two parts, by their numbers; and by the number of children that a node has left for both, how
-    /// many of these the first gets at the least cost. If that is none, both are one child: a node.
+    /// Two parts, by their numbers. The second entry is indexed by the number of children that a
+    /// node has left for both: the number of these that the first part gets at the least cost. If
+    /// it is 0, both parts together are one child: a node.
     Halves([u32; 2], [u8; WIDE + 1]),
 }
 
@@ -138,12 +139,13 @@ struct Halving<'a> {
     parts: Vec<Subtree>,
 }
 
-/// What a part costs to a ray through the root, but for a factor: by the number of children of one node
-/// that may hold it, from one on.
+/// Costs of a part for a ray through the root, up to a factor: by the number of children of one
+/// node that may hold the part, from one on.
 type Costs = [f64; WIDE + 1];
 
 impl Halving<'_> {
-    /// The part of these faces, its number, and its costs. There are `depth` halvings above it.
+    /// Creates the part of `faces`; returns its number and its costs. `depth` counts the halvings
+    /// above it.
     fn part(&mut self, faces: &mut [u32], depth: usize) -> (u32, Costs) {
         let bounds = around(self.boxes, faces);
         let axis = self.axes[faces[0] as usize];
@@ -177,7 +179,7 @@ impl Halving<'_> {
         (self.parts.len() as u32 - 1, costs)
     }
 
-    /// Reorders `faces` and returns where to cut them: both sides are non-empty.
+    /// Reorders `faces` and returns the position of the cut: both sides are non-empty.
     fn split(&self, faces: &mut [u32], depth: usize) -> usize {
         let Self { boxes, axes, .. } = self;
         let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
@@ -196,7 +198,7 @@ impl Halving<'_> {
                 partition(faces, |face| usize::from(axes[face as usize]) == axis)
             }
             None => {
-                // Centres in one place, or a tree too deep: halves.
+                // All centres are in one place, or the tree is too deep: cut into halves.
                 let extent = centres.high - centres.low;
                 let axis = (0..3)
                     .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
@@ -211,7 +213,7 @@ impl Halving<'_> {
         }
     }
 
-    /// The cut that costs least, where there is one with faces on both sides.
+    /// Returns the cut of least cost that has faces on both sides, if there is one.
     fn best_cut(&self, faces: &[u32], centres: Bounds) -> Option<Cut> {
         let mut best: Option<(f64, Cut)> = None;
         let mut consider = |left: &Group, right: &Group, cut: Cut| {
@@ -266,16 +268,16 @@ impl Halving<'_> {
     }
 }
 
-/// What comes to the left side of a cut.
+/// The faces on the left side of a cut.
 #[derive(Clone, Copy)]
 enum Cut {
     /// The faces whose centres lie, along an axis, in the bins up to this one.
     Plane(usize, usize),
-    /// Those with this main axis.
+    /// The faces with this main axis.
     MainAxis(usize),
 }
 
-/// Faces on one side of a cut: how many have each main axis.
+/// Faces on one side of a cut: the box around them, and their number by main axis.
 #[derive(Clone, Copy)]
 struct Group {
     bounds: Bounds,
@@ -305,7 +307,7 @@ impl Group {
     }
 }
 
-/// Brings the faces that are `left` to the front, and returns their number.
+/// Moves the faces for which `left` is true to the front, and returns their number.
 fn partition(faces: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
     let mut middle = 0;
     for i in 0..faces.len() {
@@ -318,11 +320,12 @@ fn partition(faces: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
 }
 
 impl Tree {
-    /// A node over part `part`, whose number it returns; `level` is the number of nodes down to it.
+    /// Adds a node over part `part` and returns its number. `level` counts the nodes from the root
+    /// down to it.
     fn node(&mut self, parts: &[Subtree], part: u32, level: usize) -> u32 {
         let number = self.nodes.len() as u32;
         self.levels = self.levels.max(level);
-        // Finite, so that no box's test has 0 times infinity.
+        // Finite, so that no box test computes 0 times infinity.
         self.nodes.push(Node {
             boxes: [[[f32::MAX; WIDE]; 3], [[f32::MIN; WIDE]; 3]],
             children: [Child::Absent; WIDE],
@@ -349,7 +352,8 @@ impl Tree {
     }
 }
 
-/// Puts the parts that hold part `part` as `most` children of one node at the least cost into `children`.
+/// Appends to `children` the parts that hold part `part` as at most `most` children of one node, at
+/// the least cost.
 fn children_of(parts: &[Subtree], part: u32, most: usize, children: &mut Vec<u32>) {
     match parts[part as usize].content {
         Content::Halves([left, right], shares) if shares[most] > 0 => {
@@ -361,7 +365,7 @@ fn children_of(parts: &[Subtree], part: u32, most: usize, children: &mut Vec<u32
     }
 }
 
-/// A number of single precision that is not above this one.
+/// Returns a single-precision number that is not above `number`.
 fn below(number: f64) -> f32 {
     let single = number as f32;
     if f64::from(single) > number {

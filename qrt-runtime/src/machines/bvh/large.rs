@@ -6,28 +6,29 @@ use qrt_core::tracer::{
     Arith, AxisPermuted, Crossing, EdgeTest, Geometry, Ray, between, cross, weighted,
 };
 
-/// Faces that are taken out of the tree, at most.
+/// Largest number of faces that are taken out of the tree.
 const MOST: usize = 8;
 
-/// What a walk through the tree costs, in tries of a face by all lanes, for each ray.
+/// Cost of a walk through the tree for each ray, in trials of a face by all lanes.
 const WALK: f64 = 16.0;
 
-/// A face by itself.
+/// A face outside the tree.
 #[derive(Clone, Debug)]
 pub(super) struct LargeFace {
-    /// Its place in [`Geometry::faces`].
+    /// Position of the face in [`Geometry::faces`].
     pub(super) rank: u32,
     plane: u32,
     axis: usize,
     form: [f64; 2],
     offset: f64,
     edge_tests: Vec<EdgeTest>,
-    /// Whether it may stand between a point of the scene and one on a lamp.
+    /// True if the face may stand between a point of the scene and a point on a lamp.
     pub(super) blocks: bool,
 }
 
-/// Whichever of these boxes are of large faces, by number: those without which a box around the others is
-/// so much smaller that rays are spared more walks than the large faces cost.
+/// Chooses the large faces and returns their numbers in ascending order. Without the large faces,
+/// the box around the others is smaller, and the walks that this saves cost more than the large
+/// faces.
 pub(super) fn choose(boxes: &[Bounds]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
     let area = |face: u32| boxes[face as usize].area();
@@ -47,10 +48,10 @@ pub(super) fn choose(boxes: &[Bounds]) -> Vec<u32> {
 }
 
 impl LargeFace {
-    /// Face number `rank`, which is on this plane.
+    /// Creates the large face number `rank`, which is on the plane number `plane`.
     pub(super) fn new(geometry: &Geometry, rank: u32, plane: u32) -> Self {
         let on = &geometry.planes[plane as usize];
-        // As a loop over all faces has it: see `Geometry::occluded`.
+        // The same condition as in a loop over all faces: see `Geometry::occluded`.
         let passed = on.outermost || on.emitters.len() == geometry.emitters as usize;
         let mut beside = geometry.faces_of(plane as usize).iter();
         Self {
@@ -64,7 +65,7 @@ impl LargeFace {
         }
     }
 
-    /// Whether `ray` meets the face, and at which distance.
+    /// Returns whether `ray` meets the face, and the distance.
     #[inline(always)]
     pub(super) fn meet<'i, S: pulp::Simd, const W: usize>(
         &self,

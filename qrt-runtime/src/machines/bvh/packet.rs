@@ -1,4 +1,4 @@
-//! A few faces, tried at once.
+//! A few faces that are tried together.
 
 use super::FACES;
 use super::approach::{Lines, MOST_RAYS};
@@ -7,7 +7,7 @@ use crate::machines::lanes::{Lanes, lanes};
 use crate::machines::masks::bits;
 use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
 
-/// Edges of a face, at most.
+/// Largest number of edges of a face.
 const EDGES: usize = 4;
 
 /// Faces with one main axis: constants side by side, in the order in which they are read. An
@@ -23,11 +23,11 @@ pub(super) struct Packet {
     edges: [[[f64; FACES]; 3]; EDGES],
     /// The faces' places in [`Geometry::faces`].
     rank: [u32; FACES],
-    /// Edges of the face that has most.
+    /// Number of edges of the face that has the most.
     most_edges: u32,
 }
 
-/// By place in [`Geometry::faces`]: the face's plane.
+/// Returns the plane of each face, in the order of [`Geometry::faces`].
 pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
     let mut planes = vec![0; geometry.faces.len()];
     for (number, plane) in geometry.planes.iter().enumerate() {
@@ -37,7 +37,7 @@ pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
 }
 
 impl Packet {
-    /// The faces `ranks`, at most [`FACES`], which share a main axis.
+    /// Creates the packet of the faces `ranks`, at most [`FACES`], which share a main axis.
     pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
         let everywhere = [[0.0; FACES], [0.0; FACES], [f64::NEG_INFINITY; FACES]];
         let mut packet = Self {
@@ -59,7 +59,8 @@ impl Packet {
             packet.rank[lane] = rank;
             let mut edge = 0;
             for edge_test in &geometry.faces[rank as usize].edge_tests {
-                // The negated form has the negated value exactly, so that one comparison serves.
+                // The value of the negated form is exactly the negated value, so one kind of
+                // comparison is enough.
                 let sides = [(1.0, edge_test.low), (-1.0, -edge_test.high)];
                 for (sign, low) in sides.into_iter().filter(|(_, low)| low.is_finite()) {
                     let constants = [sign * edge_test.form[0], sign * edge_test.form[1], low];
@@ -74,8 +75,8 @@ impl Packet {
         packet
     }
 
-    /// Shows `search` the faces that the ray in `lane` meets within its limit, until it has seen
-    /// enough; tells whether it has. `axis` is the faces' main axis.
+    /// Passes to `search` the faces that the ray in `lane` meets within its limit, and returns true
+    /// as soon as the search needs no more. `axis` is the faces' main axis.
     #[inline(always)]
     pub(super) fn show<S: pulp::Simd>(
         &self,
@@ -99,8 +100,8 @@ impl Packet {
         false
     }
 
-    /// Which faces the ray of this lane meets within `limit`, beginning at face `first`, and their
-    /// distances.
+    /// Returns the faces that the ray in `lane` meets within `limit`, beginning at face `first`,
+    /// and their distances.
     #[inline(always)]
     fn distances<S: pulp::Simd>(
         &self,
@@ -111,7 +112,7 @@ impl Packet {
         first: usize,
     ) -> (S::m64s, [S::f64s; 1]) {
         let simd = cx.simd;
-        // Where a register has more lanes than there are faces, those beyond are of no meaning.
+        // If a register has more lanes than there are faces, the remaining lanes have no meaning.
         let real = |column: &[f64; FACES]| {
             if S::F64_LANES > FACES {
                 [simd.partial_load_f64s(column)]

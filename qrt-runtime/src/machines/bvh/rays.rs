@@ -12,7 +12,7 @@ use crate::machines::masks;
 use pulp::WithSimd;
 use qrt_core::tracer::{Arith, Ray, Start, Work};
 
-/// What walks keep from one to the next: memory.
+/// Memory that successive walks reuse.
 #[derive(Debug)]
 pub(super) struct Scratch {
     lines: Lines,
@@ -21,7 +21,7 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// With stacks that are deep enough for the walks through a tree.
+    /// Creates stacks that are deep enough for the walks through a tree.
     pub(super) fn new(bvh: &Bvh) -> Self {
         let most = bvh.most_waiting();
         Self {
@@ -32,7 +32,7 @@ impl Scratch {
     }
 }
 
-/// The lanes in which `mask` holds, as bits.
+/// Returns the lanes in which `mask` is true, as bits.
 #[inline(always)]
 fn bits<S: pulp::Simd, const W: usize>(simd: S, mask: [S::m64s; W]) -> u64 {
     let mut all = 0;
@@ -42,7 +42,7 @@ fn bits<S: pulp::Simd, const W: usize>(simd: S, mask: [S::m64s; W]) -> u64 {
     all
 }
 
-/// The lanes that are set in `rays`, one after the other.
+/// Returns the lanes that are set in `rays`, one after the other.
 #[inline(always)]
 fn lanes_of(mut rays: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -52,7 +52,8 @@ fn lanes_of(mut rays: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Finds the nearest face of each ray: its distance and its place in the geometry's faces, or their number.
+/// Finds the nearest face of each ray: its distance and its position in the geometry's faces. For a
+/// ray without a face, the position is the number of faces.
 pub(super) struct FindNearest<'a, 'i, S: pulp::Simd, const W: usize> {
     pub(super) bvh: &'a Bvh,
     pub(super) ray: &'a Ray<Lanes<'i, S, W>>,
@@ -124,13 +125,13 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindNearest<'_
     }
 }
 
-/// Finds the nearest faces of the rays of a beam, where they are nearer than those known.
+/// Finds the nearest faces of the rays of a beam, if they are nearer than the known ones.
 struct Together<'a, 'i> {
     bvh: &'a Bvh,
     inputs: &'i Inputs,
     beam: Beam<'a>,
     stack: &'a mut [Waiting<u32>],
-    /// What is known, by lane.
+    /// The nearest known face, by lane.
     distance: &'a mut [f64],
     rank: &'a mut [u64],
 }
@@ -159,8 +160,8 @@ impl WithSimd for Together<'_, '_> {
     }
 }
 
-/// Finds the nearest faces of rays that each walk by themselves, where they are nearer than those
-/// known.
+/// Finds the nearest faces of rays that each walk by themselves, if they are nearer than the known
+/// ones.
 struct Alone<'a, 'i> {
     bvh: &'a Bvh,
     inputs: &'i Inputs,
@@ -168,7 +169,7 @@ struct Alone<'a, 'i> {
     /// The lanes of the rays, as bits.
     rays: u64,
     stack: &'a mut [Waiting<Child>],
-    /// What is known, by lane.
+    /// The nearest known face, by lane.
     distance: &'a mut [f64],
     rank: &'a mut [u64],
 }
@@ -193,16 +194,17 @@ impl WithSimd for Alone<'_, '_> {
     }
 }
 
-/// Where rays end, and what hides that.
+/// The ends of rays, and the condition that hides an end.
 pub(super) enum Ends<S: pulp::Simd, const W: usize> {
-    /// On an emitter at this distance: hidden by what does not emit.
+    /// The ray ends on an emitter at this distance. A face before it that does not emit hides it.
     Emitter([S::f64s; W]),
-    /// On this emitting face, one length of the direction away: hidden by whatever stands before.
+    /// The ray ends on this emitting face, one length of the direction away. Any face before it
+    /// hides it.
     Lamp([S::u64s; W]),
 }
 
 impl<S: pulp::Simd, const W: usize> Ends<S, W> {
-    /// Whether `large` stands before the ends; none if it never does.
+    /// Returns whether `large` hides the ends, or `None` if it never does.
     #[inline(always)]
     fn hidden_by<'i>(
         &self,
@@ -298,7 +300,7 @@ impl<'i, S: pulp::Simd, const W: usize> Work<Lanes<'i, S, W>> for FindOccluded<'
     }
 }
 
-/// What ends each ray, by lane.
+/// The end of each ray, by lane.
 enum EndsByLane<'a> {
     /// The distance of an emitter.
     Emitter(&'a [f64]),
@@ -315,7 +317,7 @@ struct Hiding<'a, 'i> {
     rays: u64,
     ends: EndsByLane<'a>,
     stack: &'a mut [Waiting<Child>],
-    /// 1 in the lanes of those that are hidden.
+    /// 1 in the lanes of hidden rays.
     hidden: &'a mut [u64],
 }
 

@@ -1,31 +1,33 @@
-//! One ray through the tree.
+//! The walk of one ray through the tree.
 
 use super::approach::Lines;
 use super::{Bvh, Child, Node, WIDE};
 use crate::machines::lanes::Lanes;
 use crate::machines::masks::bits_of_singles;
 
-/// A face that the ray meets: its place in the geometry's faces.
+/// A face that the ray meets: its distance, and its position in the geometry's faces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) distance: f64,
     pub(super) rank: u32,
 }
 
-/// Something still to visit, and the distance at which boxes say it begins.
+/// An entry on the stack, and the distance at which its box begins.
 pub(super) type Waiting<T> = (f32, T);
 
-/// What a walk looks for. (A trait and not a closure: see [`crate::machines::lanes`].)
+/// A search among the faces along a ray. (A trait and not a closure: see
+/// [`crate::machines::lanes`].)
 pub(super) trait Search {
-    /// Whether nearer faces matter more.
+    /// True if nearer faces matter more.
     const IN_ORDER: bool;
-    /// Nothing beyond this distance matters.
+    /// Returns the distance beyond which nothing matters.
     fn limit(&self) -> f64;
-    /// The ray meets face `rank` at `distance`: whether the search has seen enough.
+    /// Handles face `rank`, which the ray meets at `distance`. Returns true if the search needs no
+    /// more faces.
     fn meet(&mut self, rank: u32, distance: f64) -> bool;
 }
 
-/// The nearest face; of equally near ones the first.
+/// Finds the nearest face; of equally near faces the first.
 pub(super) struct NearestFace {
     pub(super) best: Found,
 }
@@ -46,7 +48,7 @@ impl Search for NearestFace {
     }
 }
 
-/// Any face that hides an emitter at this distance from whoever looks along the ray.
+/// Finds any face that hides an emitter at `distance` along the ray.
 pub(super) struct Hides<'a> {
     pub(super) bvh: &'a Bvh,
     pub(super) distance: f64,
@@ -64,14 +66,15 @@ impl Search for Hides<'_> {
     }
 }
 
-/// Any face before the end of a ray on an emitting face, one length of its direction away.
+/// Finds any face before the end of a ray, which is on the emitting face `lamp`, one length of the
+/// ray's direction away.
 pub(super) struct Blocks<'a> {
     pub(super) bvh: &'a Bvh,
     pub(super) lamp: u32,
 }
 
 impl Blocks<'_> {
-    /// Faces in the emitter's plane are met at its end, up to rounding.
+    /// A ray meets faces in the emitter's plane at its end, up to rounding.
     pub(super) const LIMIT: f64 = 1.0 + 1e-6;
 }
 
@@ -93,14 +96,15 @@ impl Search for Blocks<'_> {
 }
 
 impl Bvh {
-    /// What waits on a walk's stack, at most.
+    /// Returns the largest number of entries on a walk's stack.
     pub(super) fn most_waiting(&self) -> usize {
         // All children of a node on each level.
         WIDE * self.levels
     }
 
-    /// Shows `search` the faces of the tree that the ray in `lane` meets within its limit, until it has
-    /// seen enough; tells whether it has. `stack` has room for all that may wait.
+    /// Passes to `search` the faces of the tree that the ray in `lane` meets within its limit, and
+    /// returns true as soon as the search needs no more. `stack` must have room for all waiting
+    /// entries.
     #[inline(always)]
     pub(super) fn walk<S: pulp::Simd, T: Search>(
         &self,
@@ -123,7 +127,7 @@ impl Bvh {
                         let place = left.trailing_zeros() as usize % WIDE;
                         left &= left - 1;
                         next = node.children[place];
-                        // One child, by far the most frequent, takes no detour over the stack.
+                        // A single child, by far the most frequent case, bypasses the stack.
                         if left != 0 {
                             let base = waiting;
                             let mut nearest = nears[place];
@@ -135,7 +139,8 @@ impl Bvh {
                                     std::mem::swap(&mut other.0, &mut nearest);
                                     std::mem::swap(&mut other.1, &mut next);
                                 }
-                                // Insertion keeps the farthest first; there are few.
+                                // Insertion sort, because children are few; the farthest comes
+                                // first.
                                 let mut place = waiting;
                                 while T::IN_ORDER && place > base && stack[place - 1].0 < other.0 {
                                     stack[place] = stack[place - 1];
@@ -159,7 +164,7 @@ impl Bvh {
                 }
                 Child::Absent => {}
             }
-            // The nearest child on the stack that is not beyond what was found since.
+            // Take the nearest child on the stack that is not beyond the current limit.
             loop {
                 if waiting == 0 {
                     return false;
@@ -175,11 +180,11 @@ impl Bvh {
     }
 }
 
-/// Lanes of single precision, at most.
+/// Largest number of single-precision lanes.
 pub(super) const MOST_LANES: usize = 16;
 
-/// A register of the columns from `first` on; where it has more lanes than there are columns, those
-/// beyond are of no meaning.
+/// Loads a register of `columns` from `first` on. If the register has more lanes than there are
+/// columns, the remaining lanes have no meaning.
 #[inline(always)]
 pub(super) fn columns<S: pulp::Simd>(simd: S, columns: &[f32; WIDE], first: usize) -> S::f32s {
     if S::F32_LANES > WIDE {
@@ -190,7 +195,8 @@ pub(super) fn columns<S: pulp::Simd>(simd: S, columns: &[f32; WIDE], first: usiz
 }
 
 impl Node {
-    /// The children that the ray in `lane` meets within `limit`, as bits, and the distances of all.
+    /// Returns the distances of all children, and as bits the children that the ray in `lane` meets
+    /// within `limit`.
     #[inline(always)]
     fn open<S: pulp::Simd>(
         &self,
@@ -213,7 +219,8 @@ impl Node {
                 let backwards = usize::from(backwards[axis]);
                 let first_plane = columns(simd, &self.boxes[backwards][axis], first);
                 let last_plane = columns(simd, &self.boxes[1 - backwards][axis], first);
-                // Fused or not: what may be added up is far above either's rounding.
+                // Fused or not: the slack in `enter` and `leave` is far above the rounding of
+                // either.
                 near = simd.max_f32s(near, simd.mul_add_e_f32s(first_plane, inverse, enter));
                 far = simd.min_f32s(far, simd.mul_add_e_f32s(last_plane, inverse, leave));
             }

@@ -1,4 +1,4 @@
-//! What a step computes on the lanes of a block, for one type of lane.
+//! Steps that compute on the lanes of a block, for one type of lane.
 
 use super::lane::{Float, Kind, Lane, Row};
 use super::steps::Seen;
@@ -10,7 +10,7 @@ pub(super) enum Arg<K> {
     Splat(K),
 }
 
-/// What a target keeps of a number: its lowest bits, as its type reads them.
+/// The part of a number that a target keeps: its lowest bits, as the target's type reads them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wrap<K> {
     pub(super) mask: K,
@@ -19,7 +19,7 @@ pub(super) struct Wrap<K> {
 }
 
 impl<K: Lane> Wrap<K> {
-    /// All of it.
+    /// Keeps the whole number.
     pub(super) fn none() -> Self {
         Self {
             mask: K::cut(-1),
@@ -27,13 +27,13 @@ impl<K: Lane> Wrap<K> {
         }
     }
 
-    /// `width` bits.
+    /// Keeps `width` bits.
     pub(super) fn new(width: u32, signed: bool) -> Self {
         if width >= K::BITS {
             return Self::none();
         }
         Self {
-            // A register of no bits holds 0: the index of a pixel's only path.
+            // A register of no bits holds 0, for example the index of a pixel's only path.
             mask: K::cut(u64::MAX.checked_shr(64 - width).unwrap_or(0).cast_signed()),
             half: K::cut(i64::from(signed && width > 0) << width.saturating_sub(1)),
         }
@@ -66,7 +66,7 @@ pub(super) enum Arith<K> {
         wrap: Wrap<K>,
         t: u32,
     },
-    /// The product fits, or what of it does not is not asked for.
+    /// The product fits, or the target keeps none of the bits that do not fit.
     Mul {
         a: Arg<K>,
         b: Arg<K>,
@@ -159,7 +159,7 @@ pub(super) enum Arith<K> {
     Parity {
         source: Source,
         columns: Box<[u64]>,
-        /// By lane: what `lane`, as the source, maps to.
+        /// By lane: the image of the lowest bits of the lane's number: see [`super::pattern_bits`].
         pattern: Box<Row<K>>,
         parameter: Option<u32>,
         wrap: Wrap<K>,
@@ -167,12 +167,12 @@ pub(super) enum Arith<K> {
     },
 }
 
-/// Where a linear map's source is.
+/// Source of a linear map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Source {
     /// An input register.
     Input(u32),
-    /// `Long`
+    /// A value of the kind `Long`.
     Row(u32),
 }
 

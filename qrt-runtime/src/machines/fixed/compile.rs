@@ -1,4 +1,4 @@
-//! From a program to steps on values, each of the narrowest kind that holds it.
+//! Compiles a program to steps on values, each of the narrowest kind that holds it.
 
 use super::arith::{Arg, Arith, Wrap};
 use super::lane::{Kind, Lane};
@@ -6,10 +6,10 @@ use super::steps::Step;
 use qrt_circuit::{Bit, Operand, Program, RegisterId, Type, Word};
 use std::collections::HashMap;
 
-/// A value: its kind and its number among all.
+/// A value: its kind, and its number among all values.
 pub(super) type Value = (Kind, u32);
 
-/// `$body`, with `$K` the type of lane of `$kind`.
+/// Expands to `$body`, with `$K` the type of lane of `$kind`.
 macro_rules! with_kind {
     ($kind:expr, $K:ident => $body:expr) => {
         match $kind {
@@ -33,7 +33,7 @@ macro_rules! with_kind {
     };
 }
 
-/// What `width` bits are, unsigned or in two's complement.
+/// Range of the numbers of `width` bits, unsigned or in two's complement.
 pub(super) fn range(width: u32, signed: bool) -> [i64; 2] {
     let all = |bits: u32| (1_i128 << bits) - 1;
     let [low, high] = if signed {
@@ -53,12 +53,12 @@ pub(super) fn kind_of(width: u32, signed: bool) -> Kind {
     }
 }
 
-/// Whether the type reads its top bit as a sign.
+/// Returns whether the type reads its top bit as a sign.
 pub(super) fn negative(ty: Type) -> bool {
     matches!(ty, Type::Int | Type::Fixed { .. })
 }
 
-/// The content of an operand that differs from its register's: which bits, and the kind wanted.
+/// Key of an operand whose content differs from its register's: the value, its bits, and the kind.
 type Reading = (u32, Option<Word>, Kind);
 
 pub(super) struct Compiler<'a> {
@@ -69,7 +69,7 @@ pub(super) struct Compiler<'a> {
     readings: HashMap<Reading, u32>,
     bits: HashMap<(u32, u32), u32>,
     pub(super) addresses: HashMap<Vec<(u32, u32, bool)>, u32>,
-    /// By value that an input register came with: its place, and its bits.
+    /// By value of an input register: the position of the input, and its number of bits.
     pub(super) inputs: HashMap<u32, (u32, u32)>,
     pub(super) sign: Option<u32>,
 }
@@ -109,7 +109,7 @@ impl<'a> Compiler<'a> {
         compiler
     }
 
-    /// The values that `outputs` read, in slots of the kinds returned.
+    /// Adds the steps that read `outputs`, and returns their values with their kinds.
     pub(super) fn outputs(&mut self, outputs: &[Word]) -> Vec<Value> {
         let read = outputs.iter().map(|word| {
             let kind = Kind::of(word.range());
@@ -133,7 +133,7 @@ impl<'a> Compiler<'a> {
         kind_of(width, signed)
     }
 
-    /// The register's content. One that nothing computed is zero.
+    /// Returns the register's content, which is zero if nothing has computed it.
     pub(super) fn register(&mut self, register: RegisterId) -> Value {
         if let Some(value) = self.registers[register.index()] {
             return value;
@@ -152,7 +152,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// The word's number, or its lowest bits if `kind` has fewer.
+    /// Returns the word's number, or its lowest bits if `kind` has fewer.
     pub(super) fn word(&mut self, word: Word, kind: Kind) -> u32 {
         if kind == Kind::Truth {
             return self.lowest_bit(word);
@@ -160,7 +160,7 @@ impl<'a> Compiler<'a> {
         let (from, value) = self.register(word.register);
         let (width, signed) = self.shape(word.register);
         let whole = word.offset == 0 && word.width == width && word.shift == 0;
-        // A part of the whole may be all that the kind keeps.
+        // The kind may keep only a part of the register.
         let low = word.offset == 0 && word.shift == 0 && word.width >= kind.bits();
         let free = (whole && word.signed == signed) || low && width >= word.width;
         if free && from == kind {
@@ -209,7 +209,7 @@ impl<'a> Compiler<'a> {
         self.cast((wide, t), kind, Wrap::none())
     }
 
-    /// The word's number mod 2, as a truth.
+    /// Returns the word's number mod 2, as a truth.
     pub(super) fn lowest_bit(&mut self, word: Word) -> u32 {
         if word.shift == 0 {
             return self.bit(Bit {
@@ -238,7 +238,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// The bit's truth before its negation.
+    /// Returns the bit's truth before its negation.
     pub(super) fn bit(&mut self, bit: Bit) -> u32 {
         let (kind, value) = self.register(bit.register);
         if kind == Kind::Truth {
@@ -253,14 +253,15 @@ impl<'a> Compiler<'a> {
         read
     }
 
-    /// Adds a step that computes a value, and returns this.
+    /// Adds a step that computes a value, and returns the value.
     pub(super) fn step(&mut self, step: impl FnOnce(u32) -> Step) -> u32 {
         let t = self.value();
         self.steps.push(step(t));
         t
     }
 
-    /// Gives the register a value, of which it keeps the lowest bits. The number is in `bounds`.
+    /// Sets the register to a value, of which it keeps the lowest bits. The value's number is in
+    /// `bounds`.
     pub(super) fn set(&mut self, register: RegisterId, (kind, value): Value, bounds: [i64; 2]) {
         let (width, signed) = self.shape(register);
         let own = kind_of(width, signed);

@@ -1,7 +1,7 @@
-//! How steps of one type of lane are computed.
+//! Computes steps of one type of lane.
 //!
-//! Every loop is over all lanes of a block, and short enough that the compiler makes vectors of it
-//! in each of the instruction sets that it is compiled for.
+//! Every loop is over all lanes of a block, and short enough that the compiler vectorizes it for
+//! each instruction set.
 
 use super::arith::{Arg, Arith, Source, Wrap};
 use super::lane::{Float, Lane, Row, Slot, Slots};
@@ -47,7 +47,8 @@ fn select<K: Lane>(
     wrap: Wrap<K>,
 ) {
     let all = K::rows(slots);
-    // By masks: a choice between two places in memory would become a gather.
+    // With masks, because the compiler would turn a choice between two places in memory into a
+    // gather.
     let choose = |when: u8, a: K, b: K| {
         let chosen = K::cut(0).sub(K::cut(i64::from(when)));
         wrap.of(b.xor(a.xor(b).and(chosen)))
@@ -82,7 +83,8 @@ fn divide<K: Lane>(
     float: Float,
 ) {
     let all = Wrap::<K>::new(width, false).mask;
-    // Not negative, so that a shift by all bits but the sign leaves 0 as one by more would.
+    // `a` is not negative. Therefore a shift by all bits except the sign leaves 0, as a longer
+    // shift would.
     let down = width.min(K::BITS - 1);
     let lanes = quotient.0.iter_mut().zip(&mut fits.0);
     for ((quotient, fits), (a, b)) in lanes.zip(a.0.iter().zip(&b.0)) {
@@ -96,7 +98,7 @@ fn divide<K: Lane>(
     }
 }
 
-/// The image of `source` under `columns`.
+/// Returns the image of `source` under `columns`.
 pub(super) fn image(columns: &[u64], source: u64) -> u64 {
     let bits = columns.iter().enumerate();
     bits.fold(0, |sum, (bit, column)| {
@@ -114,8 +116,8 @@ fn parity<K: Lane>(
     parameter: Option<u32>,
     wrap: Wrap<K>,
 ) {
-    // Parameters are added over GF(2) first and the number is cut last, so that `pattern` holds
-    // the bits, not what the target's type makes of them.
+    // The parameter is added over GF(2) first, and the number is cut last. Therefore `pattern`
+    // holds plain bits, not numbers of the target's type.
     let run = match source {
         Source::Input(input) => block.runs[input as usize],
         Source::Row(_) => None,
@@ -144,7 +146,8 @@ fn parity<K: Lane>(
 }
 
 impl<K: Lane> Arith<K> {
-    /// Computes into `spare`, or into `truth` if the target is one, and swaps it into its slot.
+    /// Computes into `spare`, or into `truth` if the target is a truth, and swaps the result into
+    /// its slot.
     #[inline(always)]
     pub(super) fn run(
         &self,

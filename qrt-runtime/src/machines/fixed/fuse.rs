@@ -1,10 +1,11 @@
-//! Steps that become one: a sum of which a single bit is read, as comparisons are.
+//! Fuses two steps into one: a sum, and the read of its only needed bit, as in comparisons.
 
 use super::arith::Arith;
 use super::lane::{Kind, Lane};
 use super::steps::Step;
 
-/// Replaces sums of which nothing but one bit is read, once, by steps that compute that bit.
+/// Replaces each sum of which only one bit is read, and only once, by a step that computes that
+/// bit.
 pub(super) fn fused(steps: Vec<Step>, values: u32, kept: &[(Kind, u32)]) -> Vec<Step> {
     let mut steps: Vec<Option<Step>> = steps.into_iter().map(Some).collect();
     let mut reads = vec![0_u32; values as usize];
@@ -45,7 +46,7 @@ pub(super) fn fused(steps: Vec<Step>, values: u32, kept: &[(Kind, u32)]) -> Vec<
     steps.into_iter().flatten().collect()
 }
 
-/// The value of which the step reads a bit, if it does nothing else.
+/// Returns the value of which the step reads a bit, if the step does nothing else.
 fn bit_of(step: &Step) -> Option<u32> {
     match step {
         Step::Short(Arith::Bit { a, .. })
@@ -59,7 +60,7 @@ fn both<K: Lane>(sum: &Arith<K>, bit: &Arith<K>) -> Option<Step> {
     let Arith::Bit { index, t, .. } = *bit else {
         return None;
     };
-    // The register has the bit, so that what is cut from the sum is above it.
+    // The register has the bit, so the bits that are cut from the sum are above it.
     let (a, b, subtract) = match *sum {
         Arith::Add { a, b, .. } => (a, b, false),
         Arith::Sub { a, b, .. } => (a, b, true),

@@ -1,4 +1,4 @@
-//! What steps operations in place become, and those that are like them.
+//! Steps of operations in place, and of operations that are like them.
 
 use super::arith::{Arg, Arith, Wrap};
 use super::compile::{Compiler, kind_of, with_kind};
@@ -7,7 +7,7 @@ use super::ops::CUT;
 use super::steps::Step;
 use qrt_circuit::{Bit, Op, Operand, RegisterId, When, Word};
 
-/// Which of the steps of two operands an addition is, and the like.
+/// The operation of a step with two operands.
 #[derive(Clone, Copy)]
 pub(super) enum Pair {
     Add,
@@ -84,7 +84,8 @@ impl Compiler<'_> {
         }
     }
 
-    /// Leaves the register's new value only where `when` holds.
+    /// Keeps the register's new value only where `when` is true; elsewhere the register gets `old`
+    /// back.
     fn only(&mut self, when: Option<Bit>, register: RegisterId, old: u32) {
         let Some(when) = when else { return };
         let (kind, new) = self.register(register);
@@ -94,7 +95,7 @@ impl Compiler<'_> {
         self.set(register, (kind, t), CUT);
     }
 
-    /// Of lanes of the target's kind.
+    /// Adds a step with two operands, whose lanes are of the target's kind.
     pub(super) fn pair<K: Lane>(&mut self, pair: Pair, target: RegisterId, a: Arg<K>, b: Arg<K>) {
         let (width, signed) = self.shape(target);
         let wrap = Wrap::new(width, signed);

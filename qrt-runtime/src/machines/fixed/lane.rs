@@ -1,15 +1,15 @@
-//! Lanes of integers: how the values of a block of states lie in memory.
+//! Lanes of integers, which hold the values of a block of states.
 
 use super::arith::Arith;
 use super::steps::Step;
 
-/// States of a block.
+/// Number of states of a block.
 ///
 /// Longer blocks spread the cost of choosing a step over more lanes; shorter ones keep a program's
 /// live values in the nearest cache.
 pub(super) const LANES: usize = 512;
 
-/// How the lanes of a value are stored: the narrowest that all of its contents fit.
+/// Storage of a value's lanes: the narrowest that all of the value's contents fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Kind {
     /// A truth: a byte that is 0 or 1.
@@ -23,7 +23,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Bits of a lane.
+    /// Number of bits of a lane.
     pub(super) fn bits(self) -> u32 {
         match self {
             Self::Truth => 1,
@@ -57,10 +57,11 @@ impl<K: Copy + Default> Default for Row<K> {
     }
 }
 
-/// Where a value's lanes are: results are computed beside and swapped in, pointers alone.
+/// The lanes of a value. A step computes its result in a spare row and swaps it in; only pointers
+/// move.
 pub(super) type Slot<K> = Box<Row<K>>;
 
-/// Values' lanes by kind.
+/// Lanes of values, by kind.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Slots {
     pub(super) truths: Vec<Slot<u8>>,
@@ -72,7 +73,7 @@ pub(super) struct Slots {
 /// A type of lane.
 pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug {
     const BITS: u32;
-    /// The value's lowest bits, as many as the lane has.
+    /// The lowest bits of `value`, up to the lane's width.
     fn cut(value: i64) -> Self;
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -80,25 +81,27 @@ pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug
     fn and(self, other: Self) -> Self;
     fn xor(self, other: Self) -> Self;
     fn left(self, by: u32) -> Self;
-    /// With copies of the sign.
+    /// Shifts right, with copies of the sign.
     fn right(self, by: u32) -> Self;
     /// Shifts right and fills with zeros.
     fn right_unsigned(self, by: u32) -> Self;
-    /// `floor(a / b)` of numbers not negative, exact for fewer than `Float` bits; b is not 0.
+    /// `floor(a / b)` of non-negative numbers, exact for numbers within the limit of `how`; b is
+    /// not 0.
     fn divided(self, by: Self, how: Float) -> Self;
-    /// `floor(sqrt(a))` of a number not negative.
+    /// `floor(sqrt(a))` of a non-negative number.
     fn root(self, how: Float) -> Self;
     fn rows(slots: &Slots) -> &[Slot<Self>];
     fn rows_mut(slots: &mut Slots) -> &mut Vec<Slot<Self>>;
     fn step(arith: Arith<Self>) -> Step;
 }
 
-/// What divisions and square roots go through.
+/// The numbers with which divisions and square roots are computed.
 ///
-/// A quotient of integers a < 2^p and b, rounded to p bits, has the floor of the exact one: this
-/// lies at least 1/b below the next integer, and the rounding error is at most (a/b) 2^-p < 1/b.
-/// The same holds of square roots: below k their distance to k is more than 1/(2k), and the error
-/// at most half a unit in the last place, which is no more than that as long as k^2 <= 2^p.
+/// A quotient of integers a < 2^p and b, rounded to p bits, has the same floor as the exact
+/// quotient. The exact quotient lies at least 1/b below the next integer, and the rounding error is
+/// at most (a/b) 2^-p < 1/b. The same holds for square roots: the distance of a root below k to k
+/// is more than 1/(2k), and the error is at most half a unit in the last place, which is no more
+/// than that as long as k^2 <= 2^p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Float {
     /// Numbers below 2^23: `f32`.
@@ -110,7 +113,7 @@ pub(super) enum Float {
 }
 
 impl Float {
-    /// For numbers of `bits` bits.
+    /// Returns the numbers for operands of `bits` bits.
     pub(super) fn of(bits: u32) -> Self {
         match bits {
             0..=23 => Self::Single,
@@ -120,27 +123,27 @@ impl Float {
     }
 }
 
-/// 2^23 and 2^52: what added to a smaller integer leaves this in the lowest bits of the
+/// 2^23 and 2^52. The sum with a smaller integer has this integer in the lowest bits of its
 /// significand.
 const SINGLE: f32 = 8_388_608.0;
 const DOUBLE: f64 = 4_503_599_627_370_496.0;
 
-// Through the significand, because conversions by `as` saturate, which costs more than the
-// division, and those of 64 bits are missing from most instruction sets.
+// Conversions go through the significand: those by `as` saturate, which costs more than the
+// division, and most instruction sets lack those of 64 bits.
 
-/// The integer in 0 .. 2^23 that is the floor of this.
+/// Returns the floor of `value`, an integer in 0 .. 2^23.
 #[inline(always)]
 fn floor_single(value: f32) -> i32 {
     ((value.floor() + SINGLE).to_bits() ^ SINGLE.to_bits()).cast_signed()
 }
 
-/// The integer in 0 .. 2^52 that is the floor of this.
+/// Returns the floor of `value`, an integer in 0 .. 2^52.
 #[inline(always)]
 pub(super) fn floor_double(value: f64) -> i64 {
     ((value.floor() + DOUBLE).to_bits() ^ DOUBLE.to_bits()).cast_signed()
 }
 
-/// An integer in 0 .. 2^52.
+/// Converts an integer in 0 .. 2^52.
 #[inline(always)]
 fn double(value: i64) -> f64 {
     f64::from_bits(value.cast_unsigned() | DOUBLE.to_bits()) - DOUBLE

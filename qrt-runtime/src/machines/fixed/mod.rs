@@ -1,8 +1,9 @@
 //! The fixed machine: a program, operation by operation, on integers.
 //!
 //! It computes what [`qrt_circuit::Contents`] defines, for a block of states at a time: each
-//! operation is a loop over lanes of the narrowest integers that hold its operands and results.
-//! Nothing is undone: a value is computed once, and its lanes are taken again after its last use.
+//! operation is a loop over lanes of the narrowest integers that hold its operands and results. The
+//! machine undoes nothing: it computes each value once, and reuses the value's lanes after its last
+//! use.
 
 mod arith;
 mod compile;
@@ -32,7 +33,8 @@ use rayon::prelude::*;
 use slots::Counts;
 use steps::{Block, Spares, Step};
 
-/// Of a register of `width` bits: the lowest that a block's consecutive path indices run through.
+/// Number of the lowest bits, of a register of `width` bits, that a block's consecutive path
+/// indices run through.
 fn pattern_bits(width: u32) -> u32 {
     width.min(LANES.ilog2())
 }
@@ -45,12 +47,12 @@ pub struct Fixed {
     /// By input: its width.
     inputs: Vec<u32>,
     outputs: Vec<(Kind, u32)>,
-    /// The last of `outputs` is the sign.
+    /// True if the last of `outputs` is the sign.
     sign: bool,
     instructions: InstructionSet,
 }
 
-/// What a thread needs to run a [`Fixed`]: the lanes of its values.
+/// Memory that a thread needs to run a [`Fixed`]: the lanes of its values.
 #[derive(Clone, Debug)]
 pub struct Lanes {
     slots: Slots,
@@ -58,11 +60,12 @@ pub struct Lanes {
 }
 
 impl Fixed {
-    /// Lanes of a block: the most states that [`Fixed::run`] takes.
+    /// Number of lanes of a block: the most states that [`Fixed::run`] takes.
     pub const LANES: usize = LANES;
 
-    /// A machine that computes `outputs`, numbers read from the program's registers after the last
-    /// of its instructions that computes something: none of those that only undo follow it.
+    /// Creates a machine that computes `outputs`, which are numbers read from the program's
+    /// registers. It reads them after the last instruction that computes something; it leaves out
+    /// later instructions that only undo.
     ///
     /// # Panics
     /// If the program names a register, an operation or a parameter that it doesn't have.
@@ -86,18 +89,18 @@ impl Fixed {
         }
     }
 
-    /// With another instruction set.
+    /// Sets the instruction set.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions;
         self
     }
 
-    /// Steps of a block.
+    /// Number of steps of a block.
     pub fn steps(&self) -> usize {
         self.steps.len()
     }
 
-    /// Lanes to run it in.
+    /// Creates the lanes in which a thread runs the machine.
     pub fn lanes(&self) -> Lanes {
         Lanes {
             slots: self.counts.slots(),
@@ -112,10 +115,10 @@ impl Fixed {
 
     /// Runs the program on a block of states.
     ///
-    /// `inputs` are the contents of the program's input registers, one a lane; `spans` the pixels
-    /// that the lanes belong to; `outputs[k][lane]` becomes the k-th number asked for. The fastest
-    /// path indices are consecutive ones, from a multiple of [`Fixed::LANES`], or of their number
-    /// if this is less, on.
+    /// `inputs` are the contents of the program's input registers, one per lane, and `spans` are
+    /// the pixels that the lanes belong to. `outputs[k][lane]` becomes the k-th of the machine's
+    /// outputs. The machine is fastest for consecutive path indices that start at a multiple of
+    /// [`Fixed::LANES`], or of their number if this is less.
     ///
     /// # Panics
     /// If there are more than [`Fixed::LANES`] lanes, or `lanes` are of another machine.
@@ -132,8 +135,8 @@ impl Fixed {
         }
     }
 
-    /// Calls `block` for each of `0..blocks`, on all threads, each with lanes of its own. Results
-    /// are in the order of blocks.
+    /// Calls `block` for each of `0..blocks`, on all threads, with lanes that no other thread uses.
+    /// Results are in the order of blocks.
     pub fn blocks<T: Send>(
         &self,
         blocks: usize,
@@ -145,7 +148,8 @@ impl Fixed {
             .collect()
     }
 
-    /// Runs the program as [`Fixed::run`] does, and says in which lanes the phase is flipped.
+    /// Runs the program as [`Fixed::run`] does, and sets `signs` in the lanes whose phase is
+    /// flipped.
     ///
     /// # Panics
     /// As [`Fixed::run`].

@@ -1,4 +1,4 @@
-//! What steps each operation becomes.
+//! Compiles each operation to steps.
 
 use super::arith::{Arith, Source, Wrap};
 use super::compile::{Compiler, Value, kind_of, range, with_kind};
@@ -12,10 +12,10 @@ use super::steps::Step;
 use super::table;
 use qrt_circuit::{Bit, Op, Operand, RegisterId, Word};
 
-/// Bounds of what is cut to a register already.
+/// Bounds of a value that is already cut to its register.
 pub(super) const CUT: [i64; 2] = [0, 0];
 
-/// The numbers that an operand can be.
+/// Range of the numbers that an operand can be.
 fn bounds(operand: Operand) -> [i64; 2] {
     match operand {
         Operand::Word(word) => word.range(),
@@ -198,7 +198,7 @@ impl Compiler<'_> {
         let low = corners.iter().copied().fold(i128::MAX, i128::min);
         let high = corners.iter().copied().fold(i128::MIN, i128::max);
         let narrow = Kind::of(a.range()).max(Kind::of(bounds(b)));
-        // Where the product does not fit, its lowest bits do, if no others are asked for.
+        // If the product does not fit, its lowest bits are enough if the target keeps no others.
         let fits = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
         let does = |kind: &Kind| fits(kind.bits()) || drop + width <= kind.bits();
         let wide = [Kind::Short, Kind::Int, Kind::Long].into_iter().find(does);
@@ -220,7 +220,7 @@ impl Compiler<'_> {
             }
             (_, None) => How::long(a.range(), bounds(b)),
         };
-        // The narrower factor second.
+        // The narrower factor comes second.
         let (a, b) = match b {
             Operand::Word(b) if How::long(b.range(), a.range()) == How::Half => {
                 (b, Operand::Word(a))
@@ -301,7 +301,7 @@ impl Compiler<'_> {
         self.set(fits, (Kind::Truth, holds), [0, 1]);
     }
 
-    /// An Int that the bits are the digits of.
+    /// Returns an Int whose binary digits are `bits`.
     fn address(&mut self, bits: &[Bit]) -> u32 {
         let word = bits.first().map(|first| Word {
             register: first.register,

@@ -12,16 +12,16 @@ pub(super) enum Factor {
     Splat(i64),
 }
 
-/// How wide products are computed.
+/// Method by which wide products are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum How {
     /// Factors of 16 bits, in 32.
     Short,
     /// Factors of 32 bits, in 64.
     Int,
-    /// Factors of 63 and of 32 bits: the halves of the first by the second.
+    /// Factors of 63 and of 32 bits: multiplies the halves of the first by the second.
     Half,
-    /// Factors in -2^62 .. 2^62: halves by halves.
+    /// Factors in -2^62 .. 2^62: multiplies halves by halves.
     Halves,
     /// Any factors, in 128 bits.
     Whole,
@@ -36,7 +36,7 @@ impl How {
         }
     }
 
-    /// The kinds that it can leave a product in.
+    /// The narrowest and the widest kind in which a product can be left.
     pub(super) fn results(self) -> [Kind; 2] {
         match self {
             Self::Short => [Kind::Short, Kind::Int],
@@ -45,7 +45,7 @@ impl How {
         }
     }
 
-    /// For Long factors within these bounds.
+    /// Method for Long factors within these bounds.
     pub(super) fn long(a: [i64; 2], b: [i64; 2]) -> Self {
         let within = |[low, high]: [i64; 2], bits: u32| low >= -1 << bits && high < 1 << bits;
         if within(b, 31) {
@@ -66,7 +66,8 @@ pub(super) struct Product {
     pub(super) b: Factor,
     pub(super) drop: u32,
     pub(super) wrap: Wrap<i64>,
-    /// The register's width and whether its top bit is a sign, if it is the target.
+    /// The register's width and whether its top bit is a sign, if the product has the register's
+    /// kind.
     pub(super) shape: Option<(u32, bool)>,
     pub(super) to: (Kind, u32),
 }
@@ -74,15 +75,15 @@ pub(super) struct Product {
 /// The lowest 32 bits.
 const LOW: i64 = 0xffff_ffff;
 
-/// Lanes two by two, those of even places in the lower halves.
+/// Returns the lanes two by two, the even ones in the lower halves.
 #[inline(always)]
 fn pairs(row: &Row<i32>) -> &[i64] {
     bytemuck::cast_slice(&row.0)
 }
 
-/// The bits of `a b` above `drop` and below `drop + width`, of Ints: two lanes at a time, for there
-/// are instructions that multiply every other lane, and none that store half of each result. The
-/// two shifts that drop bits below also cut and extend what is left.
+/// Computes the bits of `a b` above `drop` and below `drop + width`, of Ints. It takes two lanes at
+/// a time, because there are instructions that multiply every other lane, and none that store half
+/// of each result. The two shifts of `cut` drop the bits below, and also cut and extend the rest.
 #[inline(always)]
 fn ints(t: &mut Row<i32>, factors: impl Iterator<Item = [i64; 2]>, cut: impl Fn(i64) -> i64) {
     let t: &mut [i64] = bytemuck::cast_slice_mut(&mut t.0);
@@ -104,7 +105,7 @@ fn half(a: i64, b: i64, drop: u32) -> i64 {
     }
 }
 
-/// The same for factors in -2^62 .. 2^62, so that the middle sum fits.
+/// As [`half`], for factors in -2^62 .. 2^62, so that the middle sum fits.
 #[inline(always)]
 fn halves(a: i64, b: i64, drop: u32) -> i64 {
     let ((ah, al), (bh, bl)) = ((a >> 32, a & LOW), (b >> 32, b & LOW));
@@ -214,7 +215,7 @@ impl Product {
             }
             _ => {
                 let row = &mut spares.long;
-                // One loop for each way that the shift goes.
+                // One loop for each direction of the shifts.
                 match (how, drop) {
                     (How::Half, 0..32) => each(slots, row, factors, wrap, |a, b| half(a, b, drop)),
                     (How::Half, _) => {

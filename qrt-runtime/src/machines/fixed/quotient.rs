@@ -3,14 +3,14 @@
 use super::lane::{Kind, Lane, Row, Slots, floor_double};
 use super::steps::{Seen, Spares};
 
-/// `floor(a 2^up / (b 2^up))` and whether it fits, of numbers that fit 52 bits with their zeros
-/// below: in `f64` from beginning to end, where powers of two cost nothing. See
-/// [`super::lane::Float`] for why it is exact.
+/// `floor(a 2^up / (b 2^up))`, with a shift of its own for each, and whether it fits, of numbers
+/// that fit into 52 bits with the zeros below them. The step computes it entirely in `f64`, where
+/// powers of two cost nothing. See [`super::lane::Float`] for why it is exact.
 #[derive(Clone, Debug)]
 pub(super) struct Quotient {
     pub(super) a: u32,
     pub(super) b: u32,
-    /// Zeros below the dividend and the divisor.
+    /// Numbers of zeros below the dividend and below the divisor.
     pub(super) up: [u32; 2],
     /// Bits of the quotient.
     pub(super) width: u32,

@@ -2,8 +2,8 @@
 
 use qrt_circuit::{Contents, Program};
 
-/// What the registers hold after the program, of the state whose input registers hold `inputs`, in
-/// the pixel with these classical parameters.
+/// Returns the contents of the registers after the program, for the state whose input registers
+/// hold `inputs`, in the pixel with these classical parameters.
 ///
 /// # Panics
 /// If there are fewer inputs or parameters than the program has.
@@ -32,7 +32,7 @@ fn follow(
 }
 
 /// The least and the greatest number that each register of a program has held, as its type reads
-/// it. All have held 0.
+/// it. Every register has held 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extremes {
     /// By register: the least and the greatest number that it held.
@@ -40,14 +40,14 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Of no state yet.
+    /// Creates the extremes of no state.
     pub fn new(program: &Program) -> Self {
         Self {
             registers: vec![[0, 0]; program.registers.len()],
         }
     }
 
-    /// Runs the program as [`contents`] does, and takes in what its registers hold on the way.
+    /// Runs the program as [`contents`] does, and records the contents of its registers on the way.
     ///
     /// # Panics
     /// As [`contents`].
@@ -55,7 +55,7 @@ impl Extremes {
         follow(program, inputs, parameters, |contents| {
             let held = self.registers.iter_mut().zip(&program.registers);
             for ((extremes, register), bits) in held.zip(&contents.registers) {
-                // Scratch, which stays 0 here and may be wider than a number.
+                // A scratch register stays 0 here, and may be wider than a number.
                 if register.width > 64 {
                     continue;
                 }

@@ -1,9 +1,9 @@
-//! Which slot each value takes, and which steps run at all.
+//! Assigns values to slots, and removes steps that are not needed.
 
 use super::lane::{Kind, Slots};
 use super::steps::Step;
 
-/// How many slots of each kind.
+/// Number of slots of each kind.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counts([usize; 4]);
 
@@ -19,7 +19,7 @@ impl Counts {
     }
 }
 
-/// Leaves out the steps that nothing kept depends on.
+/// Leaves out the steps on which no value in `kept` depends.
 pub(super) fn needed(steps: Vec<Step>, values: u32, kept: &[(Kind, u32)]) -> Vec<Step> {
     let mut wanted = vec![false; values as usize];
     for (_, value) in kept {
@@ -38,8 +38,8 @@ pub(super) fn needed(steps: Vec<Step>, values: u32, kept: &[(Kind, u32)]) -> Vec
     left
 }
 
-/// Replaces values' numbers by places among the slots of their kind, which are taken again once
-/// nothing reads them any more; those in `kept` stay.
+/// Replaces values' numbers by positions among the slots of their kind. A slot is reused after the
+/// last read of its value; the slots of values in `kept` are never reused.
 pub(super) fn assign(steps: &mut [Step], values: u32, kept: &mut [(Kind, u32)]) -> Counts {
     const NEVER: usize = usize::MAX;
     let mut last = vec![0; values as usize];
@@ -60,7 +60,7 @@ pub(super) fn assign(steps: &mut [Step], values: u32, kept: &mut [(Kind, u32)]) 
                 over.push((seen.kind, value));
             }
         });
-        // Results are computed beside the slots, so that one may take an operand's.
+        // Steps compute results in spare rows, so a result may take an operand's slot.
         for (kind, value) in over {
             free[kind as usize].push(slot[value]);
         }

@@ -1,4 +1,4 @@
-//! Steps: what a program becomes before it runs.
+//! Steps, to which a program is compiled before it runs.
 
 use super::arith::{Arith, Wrap};
 use super::lane::{Kind, LANES, Lane, Row, Slot, Slots};
@@ -35,13 +35,14 @@ pub(super) enum Step {
         flip: bool,
         t: u32,
     },
-    /// Truths of an Int address, in words of 32.
+    /// The truth at an Int address, in a table of 32-bit words.
     TruthTable {
         address: u32,
         table: Box<[u32]>,
         t: u32,
     },
-    /// An Int from truths: slot, place and whether it is negated.
+    /// An Int from truths: for each truth its slot, its place in the Int, and whether it is
+    /// negated.
     Address {
         bits: Box<[(u32, u32, bool)]>,
         t: u32,
@@ -73,16 +74,18 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// What a block of states starts from.
+/// The input of a block of states.
 pub(super) struct Block<'a> {
     pub(super) inputs: &'a [&'a [u64]],
     pub(super) spans: &'a [Span<'a>],
-    /// By input: if lane l holds `first ^ (l mod 2^k)`, with the k of [`super::pattern_bits`].
+    /// By input: `first`, if lane l holds `first ^ (l mod 2^k)`, with the k of
+    /// [`super::pattern_bits`].
     pub(super) runs: Vec<Option<u64>>,
 }
 
 impl Block<'_> {
-    /// What an input register holds; lanes beyond those given hold what the last does.
+    /// Returns the content of an input register. The lanes after the last given one hold the same
+    /// as that.
     #[inline(always)]
     pub(super) fn input(&self, input: u32, lane: usize) -> u64 {
         let lanes = self.inputs[input as usize];
@@ -103,7 +106,7 @@ impl Block<'_> {
     }
 }
 
-/// Where results are computed before they take their slots.
+/// Spare rows, in which steps compute results before these take their slots.
 #[derive(Clone, Debug)]
 pub(super) struct Spares {
     pub(super) truth: [Slot<u8>; 2],
@@ -112,7 +115,8 @@ pub(super) struct Spares {
     pub(super) long: Slot<i64>,
 }
 
-/// `$body` with `$row` a spare of kind `$kind` and its lanes' type `$K`, then swapped into `$t`.
+/// Evaluates `$body` with `$row` a spare of kind `$kind` and its lanes' type `$K`, then swaps it
+/// into `$t`.
 macro_rules! into {
     (($kind:expr, $t:expr), $slots:ident, $spares:ident, |$row:ident: $K:ident| $body:expr) => {
         match $kind {

@@ -2,14 +2,16 @@
 
 use super::lane::{Lane, Row, Slots};
 
-/// Entries up to which a table of numbers is read by comparing the address with each: about as many
-/// as vectors compare in the time in which the lanes load one entry after the other.
+/// Largest number of entries of a table of numbers that is read by comparing the address with each.
+/// Vectors make about this many comparisons in the time in which the lanes load one entry after the
+/// other.
 const FEW: usize = 16;
 
-/// Entries of a table of truths up to which it is kept in words of 32.
+/// Largest number of entries of a table of truths that is kept in words of 32.
 const TRUTHS: usize = 256;
 
-/// A table of numbers, 0 beyond its entries: if few, then filled up to 2, 4, 8 or 16.
+/// Creates a table of numbers, 0 beyond its entries. A short table is filled up to 2, 4, 8 or 16
+/// entries.
 pub(super) fn numbers<K: Lane>(entries: impl Iterator<Item = K>) -> Box<[K]> {
     let mut table: Vec<K> = entries.collect();
     if table.len() <= FEW {
@@ -19,7 +21,7 @@ pub(super) fn numbers<K: Lane>(entries: impl Iterator<Item = K>) -> Box<[K]> {
     table.into()
 }
 
-/// A table of truths as bits of 1, 2, 4 or 8 words, if it is short enough.
+/// Creates a table of truths as bits of 1, 2, 4 or 8 words, if it is short enough.
 pub(super) fn truths(entries: &[i64]) -> Option<Box<[u32]>> {
     let words = entries.len().div_ceil(32).next_power_of_two();
     let mut bits = vec![0; words];
@@ -29,7 +31,7 @@ pub(super) fn truths(entries: &[i64]) -> Option<Box<[u32]>> {
     (entries.len() <= TRUTHS).then(|| bits.into())
 }
 
-/// The entry at each lane's address, 0 beyond.
+/// Looks up the entry at each lane's address, 0 beyond the table.
 #[inline(always)]
 pub(super) fn look_up<K: Lane>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
     match table.len() {
@@ -53,7 +55,7 @@ fn few<K: Lane, const N: usize>(t: &mut Row<K>, address: &Row<i32>, table: &[K])
     for (t, address) in t.0.iter_mut().zip(&address.0) {
         let mut found = K::default();
         for (place, entry) in table.iter().enumerate() {
-            // A mask: choices in a row would become a jump.
+            // A mask, because the compiler would turn a sequence of choices into a jump.
             let here = K::cut(-i64::from(*address == place as i32));
             found = found.xor(entry.and(here));
         }
@@ -61,7 +63,7 @@ fn few<K: Lane, const N: usize>(t: &mut Row<K>, address: &Row<i32>, table: &[K])
     }
 }
 
-/// The truth at each lane's address, 0 beyond.
+/// Looks up the truth at each lane's address, 0 beyond the table.
 #[inline(always)]
 pub(super) fn look_up_truth(slots: &Slots, t: &mut Row<u8>, address: u32, table: &[u32]) {
     let address = &slots.ints[address as usize];

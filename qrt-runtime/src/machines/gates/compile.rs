@@ -1,4 +1,4 @@
-//! From a list of gates to code: runs of patterns, and the rows that they work on.
+//! Compiles a list of gates to code: runs of patterns, and the rows that they work on.
 
 use super::patterns::PATTERNS;
 use qrt_circuit::{Circuit, Gate, Qubit};
@@ -8,10 +8,11 @@ use std::sync::LazyLock;
 /// Longest run of one pattern.
 const LONGEST: usize = 1 << 20;
 
-/// Most rows of a pattern.
+/// Largest number of rows of a pattern.
 const ROWS: usize = 10;
 
-/// Where the rows are: first the qubits', then the signs', then the parameters' bits.
+/// Layout of the rows: first those of the qubits, then that of the signs, then those of the
+/// parameters' bits.
 #[derive(Clone, Debug)]
 pub(super) struct Wiring {
     qubits: u32,
@@ -63,13 +64,14 @@ impl Wiring {
             .flat_map(|(place, (first, bits))| (0..*bits).map(move |bit| (place, bit, first + bit)))
     }
 
-    /// The code of `gates`, or the place of the first that is none.
+    /// Returns the code of `gates`, or the position of the first invalid gate.
     pub(super) fn compile(&self, gates: &[Gate]) -> Result<Box<[u32]>, usize> {
         Ok(code(&self.all_on_rows(self.qubits, gates)?).into())
     }
 
-    /// The code of `gates` on so many qubits of their own, in which all other rows follow these; of single
-    /// gates where rows are so short that looking for longer patterns takes longer than these save.
+    /// Returns the code of `gates` on `qubits` qubits of their own, which all other rows follow. If
+    /// `are_short`, the code has only single gates: the rows are so short that a search for longer
+    /// patterns takes more time than these save.
     pub(super) fn compile_on(
         &self,
         qubits: u32,
@@ -93,7 +95,7 @@ impl Wiring {
         Ok(rows)
     }
 
-    /// Appends code that was compiled on qubits of its own, where these are `qubits`.
+    /// Appends the code `own`, compiled on qubits of its own, with `qubits` in place of these.
     pub(super) fn relocate(&self, own: &[u32], qubits: &[Qubit], code: &mut Vec<u32>) {
         let own_qubits = qubits.len() as u32;
         let row = |row: &u32| match qubits.get(*row as usize) {
@@ -110,7 +112,8 @@ impl Wiring {
         }
     }
 
-    /// The gate as an X, a CNOT or a Toffoli on rows, of which so many are qubits, if it is one.
+    /// Returns the gate as an X, a CNOT or a Toffoli on rows, of which the first `qubits` are
+    /// qubits, or `None` if it is invalid.
     fn on_rows(&self, qubits: u32, gate: Gate) -> Option<Gate> {
         let is = |qubit| qubit < qubits;
         match gate {
@@ -132,13 +135,14 @@ impl Wiring {
     }
 }
 
-/// The pattern and the length of the run that `head` begins.
+/// Returns the pattern and the length of the run that `head` begins.
 #[inline(always)]
 pub(super) fn parts(head: u32) -> (usize, usize) {
     ((head & 0xff) as usize, (head >> 8) as usize)
 }
 
-/// Code: for each run of a pattern a word `pattern | count << 8`, and the rows it works on.
+/// Returns the code of `gates`: for each run of a pattern a word `pattern | count << 8`, and the
+/// rows that the run works on.
 fn code(gates: &[Gate]) -> Vec<u32> {
     let mut code = Vec::with_capacity(gates.len());
     let mut head = None;
@@ -167,7 +171,7 @@ fn code(gates: &[Gate]) -> Vec<u32> {
     code
 }
 
-/// The same of patterns of one gate.
+/// As [`code`], but uses only patterns of one gate.
 fn code_of_each(gates: &[Gate]) -> Vec<u32> {
     let mut code = Vec::with_capacity(3 * gates.len());
     let (mut number, mut head) = (usize::MAX, 0);
@@ -182,17 +186,18 @@ fn code_of_each(gates: &[Gate]) -> Vec<u32> {
             Gate::X(t) => code.push(t),
             Gate::Cx(a, t) => code.extend([a, t]),
             Gate::Ccx(a, b, t) => code.extend([a, b, t]),
-            // There are none on rows.
+            // Gates on rows are never of these kinds.
             Gate::Load { .. } | Gate::Z(_) => {}
         }
     }
     code
 }
 
-/// Most gates of a pattern: their kinds are the bits of a word.
+/// Largest number of gates of a pattern: a word holds the kinds of this many.
 const MOST_GATES: usize = 32;
 
-/// A gate's kind, of two bits, none of which is 0: one more than the number of the pattern that it alone is.
+/// The kind of a gate on rows, a number of two bits that is not 0: one more than the number of the
+/// pattern that consists of this gate alone.
 fn kind(gate: &Gate) -> u64 {
     match gate {
         Gate::X(_) => 1,
@@ -202,13 +207,13 @@ fn kind(gate: &Gate) -> u64 {
     }
 }
 
-/// The kinds of the first gates, the first lowest; zeros where there are no more.
+/// Returns the kinds of the first gates, the first in the lowest bits; zeros if there are no more.
 fn kinds(gates: &[Gate]) -> u64 {
     let first = gates.iter().take(MOST_GATES).rev();
     first.fold(0, |kinds, gate| kinds << 2 | kind(gate))
 }
 
-/// A pattern as it is looked for.
+/// A pattern, with the data by which a search finds it.
 struct Candidate {
     number: usize,
     kinds: u64,
@@ -229,7 +234,7 @@ static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
             }
         });
         let differs = |c: &Candidate| (c.kinds ^ three as u64) & c.mask;
-        // Of the first three alone, the lowest six bits.
+        // The lowest six bits belong to the first three gates.
         all.filter(|c| differs(c) << 58 == 0).collect()
     })
 });
@@ -237,15 +242,16 @@ static CANDIDATES: LazyLock<[Vec<Candidate>; 64]> = LazyLock::new(|| {
 /// No row.
 const FREE: u32 = u32::MAX;
 
-/// By the name that it has in a pattern, the row that a gate's operand is.
+/// By the name of an operand in a pattern: the row that it is bound to.
 #[derive(Clone, Copy)]
 struct Binding {
     rows: [u32; ROWS],
-    /// Of the rows there are, the bits that their lowest six bits number.
+    /// For each bound row, the bit of the number `row % 64`: a quick test whether a row is new.
     seen: u64,
 }
 
-/// The longest pattern that `gates` begin with, whose kinds are given, and its rows.
+/// Returns the longest pattern that `gates` begin with, and its rows. `kinds` are the kinds of
+/// `gates`.
 fn longest(gates: &[Gate], kinds: u64) -> Option<(usize, [u32; ROWS])> {
     let candidates = CANDIDATES[(kinds & 63) as usize].iter();
     let mut candidates = candidates.filter(|c| kinds & c.mask == c.kinds);
@@ -262,7 +268,8 @@ fn longest(gates: &[Gate], kinds: u64) -> Option<(usize, [u32; ROWS])> {
 }
 
 impl Binding {
-    /// Binds the rows of a pattern's gates to those of `gates`, different ones to different ones.
+    /// Binds the rows of a pattern's gates to those of `gates`, different rows to different rows.
+    /// Returns whether this is possible.
     fn gates(&mut self, pattern: &[Gate], gates: &[Gate]) -> bool {
         for (place, pair) in pattern.iter().zip(gates).enumerate() {
             let fits = match pair {
@@ -271,7 +278,8 @@ impl Binding {
                 (Gate::Ccx(p, q, r), Gate::Ccx(a, b, t)) => {
                     let [first, second] = [p, q].map(|name| self.rows[*name as usize]);
                     if [first, second] == [FREE, FREE] {
-                        // Either may be either: if it does not end well, the other is tried.
+                        // The controls may be in either order. If the first order fails later, the
+                        // second is tried.
                         let before = *self;
                         if self.toffoli([*p, *q, *r], [*a, *b, *t])
                             && self.gates(&pattern[place + 1..], &gates[place + 1..])

@@ -1,13 +1,13 @@
 //! The gates machine: a circuit, gate by gate, on basis states.
 //!
-//! X, CNOT and Toffoli permute the basis states, so that each state is followed by itself, and a
-//! gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds one qubit of
-//! [`Gates::lanes`] states, a bit each, and a gate is a few instructions on vectors of bits. States
-//! span paths and pixels: what a pixel's circuit has built in, the classical parameters, are rows
-//! that gates read.
+//! X, CNOT and Toffoli permute the basis states. Therefore each basis state stays a single basis
+//! state, and a gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds
+//! one qubit of [`Gates::lanes`] states, one bit each, and a gate is a few instructions on vectors
+//! of bits. States span paths and pixels: the classical parameters, which are built into a pixel's
+//! circuit, are rows that gates read.
 //!
-//! It knows nothing of numbers. What it computes is what the list of gates computes, which is why
-//! the machine that computes with integers is held against it.
+//! The machine does not interpret qubits as numbers: it computes what the list of gates computes.
+//! Therefore the machine that computes with integers is checked against it.
 
 mod compile;
 mod patterns;
@@ -32,9 +32,9 @@ use std::cell::Cell;
      parameter that the circuit does not have"
 )]
 pub struct InvalidGate {
-    /// The circuit's place in the list that was given.
+    /// Position of the circuit in the caller's list.
     pub circuit: usize,
-    /// The gate's place in it.
+    /// Position of the gate in the circuit.
     pub gate: usize,
 }
 
@@ -68,14 +68,14 @@ pub struct Gates {
 }
 
 impl Gates {
-    /// States that a machine's rows hold, at most: see [`Gates::lanes`].
+    /// Largest number of states that a machine's rows hold: see [`Gates::lanes`].
     pub const LANES: usize = LANES;
 
-    /// A machine for circuits that share their qubits and their list of classical parameters: one
-    /// circuit, or the parts of one between which the states are looked at.
+    /// Creates a machine for circuits that share their qubits and their list of classical
+    /// parameters: one circuit, or the parts of one between which the caller reads the states.
     ///
     /// # Errors
-    /// If a gate is not one: see [`InvalidGate`].
+    /// If a gate is invalid: see [`InvalidGate`].
     pub fn new(circuits: &[&Circuit]) -> Result<Self, InvalidGate> {
         let wiring = Wiring::new(circuits);
         let code = circuits.iter().enumerate().map(|(place, circuit)| {
@@ -94,26 +94,27 @@ impl Gates {
         })
     }
 
-    /// With another instruction set.
+    /// Sets the instruction set.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions;
         self
     }
 
-    /// With rows such as [`Gates::run_queued`] is given many of, in so many bytes: where not even one fits, rows of 256
-    /// states.
+    /// Sets the length of rows for [`Gates::run_queued`], which takes many [`Rows`]. If not even
+    /// one of them fits into `bytes` bytes, it holds 256 states.
     pub fn for_many_rows(self, bytes: usize) -> Self {
         let words = rows::words_of_many(self.wiring.rows(), bytes);
         self.with_words(words)
     }
 
-    /// How many rows fit into so many bytes, or one: if [`Gates::run_queued`] is given as many, the time that it takes
-    /// to read the gates is shared by many states.
+    /// Returns the number of [`Rows`] that fit into `bytes` bytes, at least 1. If
+    /// [`Gates::run_queued`] gets that many, a large number of states share the time that it takes
+    /// to read the gates.
     pub fn rows_at_once(&self, bytes: usize) -> usize {
         rows::at_once(self.wiring.rows(), self.words, bytes)
     }
 
-    /// With rows of `lanes` states, in place of the length that the number of qubits suggests.
+    /// Sets rows of `lanes` states, in place of the length that the number of qubits suggests.
     ///
     /// # Panics
     /// If `lanes` is not 2048, 1024, 512 or 256.
@@ -123,34 +124,35 @@ impl Gates {
         self.with_words(words.unwrap_or_default())
     }
 
-    /// With rows of `words` words, one of [`rows::LENGTHS`].
+    /// Sets the number of words of a row, one of [`rows::LENGTHS`].
     fn with_words(mut self, words: usize) -> Self {
         self.words = words;
         self
     }
 
-    /// States that this machine's rows hold: [`Gates::LANES`], or a half or a quarter of them where
-    /// there are so many qubits that longer rows would not stay in the processor's caches.
+    /// Number of states that this machine's rows hold: [`Gates::LANES`], or a half or a quarter of
+    /// them if the number of qubits is so large that longer rows would not stay in the processor's
+    /// caches. After [`Gates::for_many_rows`] it may also be an eighth.
     pub fn lanes(&self) -> usize {
         64 * self.words
     }
 
-    /// Gates of circuit `circuit` of those given.
+    /// Number of gates of circuit number `circuit`.
     pub fn len(&self, circuit: usize) -> usize {
         self.lengths[circuit]
     }
 
-    /// Whether circuit `circuit` has no gates.
+    /// Returns whether circuit number `circuit` has no gates.
     pub fn is_empty(&self, circuit: usize) -> bool {
         self.lengths[circuit] == 0
     }
 
-    /// Rows for [`Gates::lanes`] states, all of whose qubits are zero.
+    /// Creates rows for [`Gates::lanes`] states, all of whose qubits are zero.
     pub fn rows(&self) -> Rows {
         Rows::new(&self.wiring, self.words)
     }
 
-    /// Runs circuit `circuit` of those given on every state of `rows`, which are of this machine.
+    /// Runs circuit number `circuit` on every state of `rows`, which must belong to this machine.
     pub fn run(&self, circuit: usize, rows: &mut Rows) {
         self.run_code(&self.code[circuit], rows);
     }
@@ -163,11 +165,11 @@ impl Gates {
         });
     }
 
-    /// Gates on so many qubits of their own, and on the machine's parameters, to be run wherever these qubits
-    /// are: see [`Gates::queue`].
+    /// Compiles gates on `qubits` qubits of their own and on the machine's parameters.
+    /// [`Gates::queue`] then places them on any qubits of the machine.
     ///
     /// # Errors
-    /// If a gate is not one.
+    /// If a gate is invalid.
     pub fn template(&self, gates: &[Gate], qubits: u32) -> Result<Template, InvalidGate> {
         let are_short = self.words <= rows::FEW_WORDS;
         let code = self.wiring.compile_on(qubits, gates, are_short);
@@ -177,14 +179,15 @@ impl Gates {
         })
     }
 
-    /// Queues the gates of a template of this machine, whose qubits these of the machine's are.
+    /// Queues the gates of a template of this machine, with `qubits` in place of the template's
+    /// own.
     pub fn queue(&self, template: &Template, qubits: &[Qubit], queue: &mut Queue) {
         self.wiring
             .relocate(&template.code, qubits, &mut queue.code);
         queue.gates += template.gates;
     }
 
-    /// Runs what is queued on all these rows, and empties the queue.
+    /// Runs the queued gates on all of `rows`, and empties the queue.
     pub fn run_queued(&self, queue: &mut Queue, rows: &mut [Rows]) {
         for rows in rows {
             self.run_code(&queue.code, rows);
@@ -193,8 +196,8 @@ impl Gates {
         queue.gates = 0;
     }
 
-    /// Calls `block` for each of `0..blocks`, on all threads, each with rows of its own; they come
-    /// as the last block on that thread left them. Results are in the order of blocks.
+    /// Calls `block` for each of `0..blocks`, on all threads, with rows that no other thread uses.
+    /// They may still hold the states of an earlier block. Results are in the order of blocks.
     pub fn blocks<T: Send>(
         &self,
         blocks: usize,
@@ -207,7 +210,7 @@ impl Gates {
     }
 }
 
-/// Gates on qubits of their own, as code of a machine.
+/// Gates on qubits of their own, compiled to code of a machine.
 #[derive(Clone, Debug)]
 pub struct Template {
     code: Box<[u32]>,
@@ -215,13 +218,13 @@ pub struct Template {
 }
 
 impl Template {
-    /// Bytes that it takes.
+    /// Number of bytes of the template's code.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.code)
     }
 }
 
-/// Gates of a machine that are to run one after another.
+/// Gates of a machine that wait to run one after another.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
     code: Vec<u32>,
@@ -229,12 +232,12 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// How many gates there are.
+    /// Number of gates in the queue.
     pub fn len(&self) -> usize {
         self.gates
     }
 
-    /// Whether there is none.
+    /// Returns whether the queue is empty.
     pub fn is_empty(&self) -> bool {
         self.gates == 0
     }
@@ -264,8 +267,8 @@ impl WithSimd for Run<'_> {
 }
 
 impl Run<'_> {
-    /// One code for rows of every length, a part of them at a time: it is compiled once, not four
-    /// times, which matters where it is sent to browsers.
+    /// Runs rows of every length with one code, a part of each row at a time. The compiler compiles
+    /// it once, not four times, which matters for programs that browsers load.
     #[inline(always)]
     fn scalar(self) {
         let parts = self.words / rows::FEW_WORDS;
@@ -276,7 +279,8 @@ impl Run<'_> {
         );
     }
 
-    /// Runs on rows of so many vectors, by their words: those of [`rows::LENGTHS`].
+    /// Runs on rows of `A`, `B`, `C` or `D` vectors: the lengths in [`rows::LENGTHS`], in this
+    /// order.
     #[inline(always)]
     fn of_length<S: Simd, const A: usize, const B: usize, const C: usize, const D: usize>(
         self,
@@ -291,7 +295,7 @@ impl Run<'_> {
     }
 }
 
-/// Runs code on rows of so many parts, each of `N` vectors.
+/// Runs code on rows of `parts` parts, each of `N` vectors.
 #[inline(always)]
 fn run<S: Simd, const N: usize>(simd: S, mut code: &[u32], (rows, parts): (&mut [u64], usize)) {
     let vectors: &mut [S::u64s] = bytemuck::cast_slice_mut(rows);

@@ -1,10 +1,10 @@
-//! What the machine executes at a time: single gates, and sequences of them that go through
-//! registers of the processor together.
+//! Patterns, which the machine executes one at a time: single gates, and sequences of gates that go
+//! through registers of the processor together.
 //!
 //! A gate on its own costs two or three loads and a store for each vector of a row, and the
-//! processor's ports for these are what limits the machine. Ripple adders consist of a few short
-//! sequences over and over; executed together, such a sequence loads and stores each of its rows
-//! once. Every gate is still executed, on every lane.
+//! processor's ports for loads and stores limit the machine. Ripple adders repeat a few short
+//! sequences. If the machine executes such a sequence as one pattern, it loads and stores each of
+//! the rows once. Every gate is still executed, on every lane.
 
 use pulp::Simd;
 use qrt_circuit::Gate;
@@ -43,7 +43,7 @@ macro_rules! apply {
     };
 }
 
-/// Patterns, each as `number: (rows that end as they were) (the others) { gates }`.
+/// Defines patterns, each as `number: (rows that end unchanged) (other rows) { gates }`.
 macro_rules! patterns {
     ($($number:literal: ($($read:ident)*) ($($write:ident)*) { $($gate:ident $($q:ident)+;)+ })+) => {
         /// All patterns, by number.
@@ -54,7 +54,7 @@ macro_rules! patterns {
             Pattern { gates: &[$(gate!($gate $($q)+),)+], rows: Q::End as usize }
         },)+];
 
-        /// Executes pattern `number` on each tuple of rows in `operands`; a row has so many parts.
+        /// Executes pattern `number` on each tuple of rows in `operands`; a row has `parts` parts.
         #[inline(always)]
         pub(super) fn execute<S: Simd, const N: usize>(
             simd: S,
@@ -74,7 +74,7 @@ macro_rules! patterns {
                             $(let $write = part_of($write);)*
                             for vector in 0..N {
                                 let places = ($(&$write[vector],)*);
-                                // Only some of a pattern's gates write to what it reads, on the way.
+                                // In some patterns, gates write to a row that ends unchanged.
                                 $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
                                 $(let mut $write = $write[vector].get();)*
                                 $(apply!(simd, $gate $($q)+);)+
@@ -132,7 +132,7 @@ macro_rules! store {
 }
 
 patterns! {
-    // The gates themselves: whatever else is left out, these three are enough.
+    // Single gates. These three patterns are sufficient; all others are faster.
     0: () (t) { x t; }
     1: (a) (t) { cx a t; }
     2: (a b) (t) { ccx a b t; }
@@ -152,7 +152,7 @@ patterns! {
     // A carry out of place: t ^= majority of a, b, c.
     12: (c) (a b t) { cx c a; cx c b; ccx a b t; cx c t; }
     13: (c) (a b t) { cx c t; ccx a b t; cx c b; cx c a; }
-    // A full adder: the same, then a as it was and the sum in b.
+    // A full adder: the same, then `a` is restored and `b` becomes the sum.
     14: (a c) (b t) { cx c a; cx c b; ccx a b t; cx c t; cx c a; cx a b; }
     15: (a c) (b t) { cx a b; cx c a; cx c t; ccx a b t; cx c b; cx c a; }
     // A full adder out of place: the carry c becomes the sum, and t the carry; of a + b, of a - b
@@ -171,21 +171,21 @@ patterns! {
     21: (a b) (c t) {
         x c; cx b c; cx a b; x t; cx a t; x c; x b; ccx c b t; x b; x c; cx a b; cx a c;
     }
-    // Majorities out of place, whose operands stay.
+    // Out-of-place majorities that leave their operands unchanged.
     22: (a b c) (t) { cx a b; cx a c; ccx b c t; cx a c; cx a b; cx a t; }
     23: (a b c) (t) { cx a t; cx a b; cx a c; ccx b c t; cx a c; cx a b; }
     // Conjunctions with a negation.
     24: (a b) (t) { x a; ccx a b t; x a; }
     25: (a) (t) { cx a t; x t; }
     26: (a) (t) { x t; cx a t; }
-    // Many into one, as tables are read.
+    // Many controls and one target, as in a table look-up.
     27: (a b c d) (t) { cx a t; cx b t; cx c t; cx d t; }
     28: (a b c d e f g h) (t) {
         cx a t; cx b t; cx c t; cx d t; cx e t; cx f t; cx g t; cx h t;
     }
-    // One into many.
+    // One control and many targets.
     29: (a) (s t u v) { cx a s; cx a t; cx a u; cx a v; }
-    // Four majorities up a ladder, or down: what carries from one to the next stays in a register.
+    // Four majorities up a ladder, or down: the carry from one to the next stays in a register.
     30: () (a b c d e f g h i) {
         cx a b; cx a c; ccx b c a; cx d e; cx d a; ccx e a d;
         cx f g; cx f d; ccx g d f; cx h i; cx h f; ccx i f h;
@@ -223,7 +223,7 @@ patterns! {
         x t; cx e t; cx d e; cx d u; x e; ccx t e u; x e; cx d e; cx d t;
         x c; cx b c; cx a b; cx a t; x b; ccx c b t; x b; cx a b; cx a c;
     }
-    // One into many, negated or not.
+    // One control and many targets, negated or not.
     38: (a) (s t u v) { cx a s; x s; cx a t; x t; cx a u; x u; cx a v; x v; }
     39: (a) (s t u v) { x s; cx a s; x t; cx a t; x u; cx a u; x v; cx a v; }
     40: (a) (s t u v w x y z) {

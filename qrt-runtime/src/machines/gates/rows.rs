@@ -6,46 +6,49 @@ use crate::machines::transpose::transpose;
 use qrt_circuit::Qubit;
 use std::fmt;
 
-/// States that a machine's rows hold, at most.
+/// Largest number of states that a machine's rows hold.
 ///
-/// Longer rows hide the time that a row takes from being written to being read, and the choosing
-/// of what to execute; shorter ones fit a nearer cache. On a Zen 5 core with 32 MB of cache, in 1e11
-/// lane-gates a second at 512, 1024 and 2048 lanes: the box under `scoped` (1,386 qubits) 5.2, 8.7 and
-/// 13.2; under `keep` (39,277) 9.2, 14.4 and 19.2; `cornell-glass` under `keep` (143,923) 9.3, 10.3 and
-/// 8.4, where the longest rows take 37 MB. On two Xeon cores at once, with 2 MB of cache each and 105 MB
-/// shared: `cornell-mirror` under `keep` (65,678) 4.3, 4.2 and 8.8, where the longest take 17 MB.
+/// Longer rows hide the time between the write and the next read of a row, and the time to choose
+/// the pattern to execute; shorter ones fit a nearer cache. On a Zen 5 core with 32 MB of cache, in
+/// 1e11 lane-gates a second at 512, 1024 and 2048 lanes: the box under `scoped` (1,386 qubits) 5.2,
+/// 8.7 and 13.2; under `keep` (39,277) 9.2, 14.4 and 19.2; `cornell-glass` under `keep` (143,923)
+/// 9.3, 10.3 and 8.4, where the longest rows take 37 MB. On two Xeon cores at once, with 2 MB of cache each and
+/// 105 MB shared: `cornell-mirror` under `keep` (65,678) 4.3, 4.2 and 8.8, where the longest take
+/// 17 MB.
 pub(super) const LANES: usize = 2048;
 
-/// Words that a row may have.
+/// The possible numbers of words of a row.
 pub(super) const LENGTHS: [usize; 4] = [LANES / 64, LANES / 128, LANES / 256, FEW_WORDS];
 
-/// Words of a row where there are very many qubits, and their gates are not held.
+/// Number of words of a row if there are very many qubits whose gates are not held.
 pub(super) const FEW_WORDS: usize = 4;
 
-/// Bytes that a machine's rows may have before they are made shorter: each thread has rows of its
-/// own, and a few share the last cache.
+/// Bytes of a machine's rows above which the rows are made shorter: each thread has rows of its
+/// own, and a few threads share the last cache.
 const MOST_BYTES: usize = 18 << 20;
 
-/// Words of a row where there are so many rows.
+/// Number of words of a row for `rows` rows: the first of the lengths that fits into
+/// [`MOST_BYTES`], or else the third.
 pub(super) fn words_of(rows: usize) -> usize {
     let [long, middle, short, _] = LENGTHS;
     let fit = |words: &usize| rows * words * size_of::<u64>() <= MOST_BYTES;
     [long, middle].into_iter().find(fit).unwrap_or(short)
 }
 
-/// Words of a row where there are so many rows, and as many such as fit into so many bytes.
+/// Number of words of a row for `rows` rows: [`words_of`] if the rows then fit into `bytes` bytes,
+/// or else [`FEW_WORDS`].
 pub(super) fn words_of_many(rows: usize, bytes: usize) -> usize {
     let words = words_of(rows);
     let fits = rows * words * size_of::<u64>() <= bytes;
     if fits { words } else { FEW_WORDS }
 }
 
-/// How many times so many rows of so many words fit into these bytes; once, if they do not.
+/// Number of times that `rows` rows of `words` words fit into `bytes` bytes, at least 1.
 pub(super) fn at_once(rows: usize, words: usize, bytes: usize) -> usize {
     (bytes / (rows * words * size_of::<u64>())).max(1)
 }
 
-/// Words that rows are aligned to: a cache line. Vectors across two lines halve the speed.
+/// Alignment of rows, in words: a cache line. Vectors across two lines halve the speed.
 const LINE: usize = 8;
 
 /// A qubit that is not zero where it should be.
@@ -97,8 +100,8 @@ impl Rows {
         &mut self.words[self.start..][row as usize * self.length..][..self.length]
     }
 
-    /// Sets `qubits`, bit 0 first, to the bits of `values`, one a lane. Lanes beyond these hold the
-    /// last of them, so that every lane is a state that occurs.
+    /// Sets `qubits`, bit 0 first, to the bits of `values`, one value per lane. The remaining lanes
+    /// hold the last value, so that every lane holds a state that occurs.
     ///
     /// # Panics
     /// If there are more than 64 qubits, or one that the circuits do not have.
@@ -118,8 +121,8 @@ impl Rows {
         }
     }
 
-    /// Reads `qubits`, bit 0 first, as an unsigned number a lane, of as many lanes as there are
-    /// `values`.
+    /// Reads `qubits`, bit 0 first, as one unsigned number per lane, in the first `values.len()`
+    /// lanes.
     ///
     /// # Panics
     /// If there are more than 64 qubits or [`super::Gates::lanes`] values, or a qubit that the
@@ -141,13 +144,13 @@ impl Rows {
         self.row(qubit)
     }
 
-    /// As [`Rows::bits`], to be set.
+    /// As [`Rows::bits`], but mutable.
     pub(in crate::machines) fn bits_mut(&mut self, qubit: Qubit) -> &mut [u64] {
         self.row_mut(qubit)
     }
 
-    /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on.
-    /// Lanes beyond belong to the last span.
+    /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on. The
+    /// remaining lanes belong to the last span.
     pub fn set_parameters(&mut self, spans: &[Span<'_>]) {
         let lanes = 64 * self.length;
         for (parameter, bit, row) in self.wiring.clone().parameters() {
@@ -177,7 +180,7 @@ impl Rows {
             free[*qubit as usize] = false;
         }
         (0..self.wiring.qubits()).find_map(|qubit| {
-            // Without branches as long as all is well.
+            // Without branches in the usual case that all rows are zero.
             if !free[qubit as usize] || self.row(qubit).iter().fold(0, |any, w| any | w) == 0 {
                 return None;
             }

@@ -5,7 +5,7 @@ use crate::machines::Span;
 use proptest::prelude::*;
 use qrt_circuit::{Gate, Parameter, Qubit};
 
-/// One state, the gates read one by one.
+/// One state, on which gates run one by one.
 #[derive(Clone, PartialEq, Debug)]
 struct State {
     qubits: Vec<bool>,
@@ -82,7 +82,7 @@ fn gates() -> impl Strategy<Value = Vec<Gate>> {
     proptest::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// All states of the qubits, in 4 pixels; and as many of them as there are lanes in shorter rows.
+/// Checks all states of the qubits, in 4 pixels; in shorter rows, the states that fit.
 fn check(gates: &[Gate], set: InstructionSet) {
     let circuit = circuit(gates.to_vec(), QUBITS);
     let machine = Gates::new(&[&circuit]).unwrap().with_instructions(set);
@@ -297,7 +297,8 @@ fn gates_made_anew_run_on_what_fits_into_some_memory() {
     assert!(machine.template(&[Gate::X(3)], 3).is_err());
 }
 
-/// Signs and parameters are the machine's, wherever a template's qubits are, and however long its rows.
+/// A template uses the machine's signs and parameters, wherever its qubits are and however long the
+/// rows.
 #[test]
 fn a_template_flips_the_machines_signs_and_reads_its_parameters() {
     let machine = Gates::new(&[&circuit(Vec::new(), 9)]).unwrap();

@@ -6,7 +6,7 @@ use super::x86::{common, halves, instructions, lane_by_lane, shifts, whole};
 use pulp::x86::V3;
 use std::arch::x86_64::{__m256d, __m256i};
 
-/// 32 bits a lane: all of them or none.
+/// 32 bits a lane: all ones or all zeros.
 #[derive(Clone, Copy)]
 pub struct Masks(V3, __m256i);
 
@@ -96,7 +96,7 @@ impl Longs {
         halves!(self, other, avx2._mm256_cmpeq_epi64).masks()
     }
 
-    /// Lanes of ones or zeros, narrowed.
+    /// Narrows lanes of ones or zeros.
     #[inline(always)]
     fn masks(self) -> Masks {
         Masks(self.0, self.0.narrow(self).1)
@@ -104,7 +104,8 @@ impl Longs {
 
     #[inline(always)]
     fn doubles(self) -> [__m256d; 2] {
-        // Exponents are put around integers, and the bit that stands for them is subtracted.
+        // The xor puts the exponent of 2^52 above the integer's bits, and the subtraction takes
+        // 2^52 away.
         let (avx, power) = (self.0.avx, Self::all(self.0, POWER));
         let Self(_, [low, high]) = self.xor(power);
         let power = avx._mm256_castsi256_pd(power.1[0]);
@@ -114,7 +115,7 @@ impl Longs {
         ]
     }
 
-    /// The floors of numbers in 0 .. 2^52.
+    /// Returns the floors of numbers in 0 .. 2^52.
     #[inline(always)]
     fn floors(simd: V3, [low, high]: [__m256d; 2]) -> Self {
         let (avx, power) = (simd.avx, Self::all(simd, POWER));
@@ -126,7 +127,8 @@ impl Longs {
     }
 }
 
-/// 2^52, as an `f64`'s bits: what added to a smaller integer leaves this in the lowest bits.
+/// 2^52, as an `f64`'s bits. The sum of 2^52 and a smaller integer has this integer in its lowest
+/// bits.
 const POWER: i64 = 0x4330_0000_0000_0000;
 
 impl Integers<Masks> for Longs {
@@ -146,7 +148,8 @@ impl Integers<Masks> for Longs {
     }
     #[inline(always)]
     fn right(self, by: u32) -> Self {
-        // No instruction copies the sign: what it is worth where it has come to is subtracted.
+        // AVX2 has no 64-bit shift that copies the sign. Instead, xor and subtraction extend the
+        // shifted sign bit.
         let sign = Self::all(self.0, (1_u64 << (63 - by)).cast_signed());
         self.right_unsigned(by).xor(sign).sub(sign)
     }
@@ -178,10 +181,10 @@ impl Integers<Masks> for Longs {
     }
 }
 
-/// The odd lanes, in the even ones' places.
+/// A shuffle that moves the odd lanes to the places of the even ones.
 const ODD: i32 = 0b11_11_01_01;
 
-/// Eight entries, by the index's lowest 3 bits.
+/// Returns entries of a table of eight, by the index's lowest 3 bits.
 #[inline(always)]
 fn eight(table: &[i32; 8], index: Ints) -> Ints {
     let avx2 = index.0.avx2;
@@ -189,10 +192,10 @@ fn eight(table: &[i32; 8], index: Ints) -> Ints {
     Ints(index.0, avx2._mm256_permutevar8x32_epi32(table, index.1))
 }
 
-/// One of two, by a bit of the index.
+/// Returns `high` where bit `bit` of the index is set, and `low` elsewhere.
 #[inline(always)]
 fn either(low: Ints, high: Ints, index: Ints, bit: u32) -> Ints {
-    // The choice looks at signs alone.
+    // The blend reads only the sign bits.
     let avx = index.0.avx;
     let [low, high] = [
         avx._mm256_castsi256_ps(low.1),
@@ -220,7 +223,8 @@ impl Vectors for V3 {
     #[inline(always)]
     fn narrow(self, a: Longs) -> Ints {
         let avx = self.avx;
-        // The even lanes of both, quarter by quarter; then the quarters in order.
+        // Takes the even lanes of both registers, quarter by quarter, and then puts the quarters in
+        // order.
         let low = avx._mm256_castsi256_ps(a.1[0]);
         let high = avx._mm256_castsi256_ps(a.1[1]);
         let even = avx._mm256_shuffle_ps::<0b10_00_10_00>(low, high);
@@ -238,7 +242,8 @@ impl Vectors for V3 {
         let a = avx2._mm256_shuffle_epi32::<ODD>(a.1);
         let b = avx2._mm256_shuffle_epi32::<ODD>(b.1);
         let odd = avx2._mm256_mul_epi32(a, b);
-        // Into the lower half of each pair of lanes, and into the upper.
+        // Even products go into the lower half of each pair of lanes, and odd ones into the upper
+        // half.
         let (even, odd) = if drop < 32 {
             let up = self.avx._mm256_set1_epi64x((32 - drop).into());
             let down = self.avx._mm256_set1_epi64x(drop.into());
@@ -301,8 +306,9 @@ impl Vectors for V3 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let index = index.lowest(L.trailing_zeros());
-        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is
-        // in 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
+        // SAFETY: `lowest` keeps only the bits of an index below L <= 2^31, so as a signed number
+        // each index is in 0..L. The scale of 4 is the size of an entry. Therefore every read is
+        // inside `table`.
         let found = unsafe {
             self.avx2
                 ._mm256_i32gather_epi32::<4>(table.as_ptr(), index.1)

@@ -117,10 +117,10 @@ impl Integers<Masks> for Longs {
     }
 }
 
-/// The odd lanes, in the even ones' places.
+/// A shuffle that moves the odd lanes to the places of the even ones.
 const ODD: i32 = 0b11_11_01_01;
 
-/// Which lanes are odd.
+/// Mask of the odd lanes.
 const ODD_LANES: u16 = 0xaaaa;
 
 impl Vectors for V4 {
@@ -155,7 +155,8 @@ impl Vectors for V4 {
         let a = f._mm512_shuffle_epi32::<ODD>(a.1);
         let b = f._mm512_shuffle_epi32::<ODD>(b.1);
         let odd = f._mm512_mul_epi32(a, b);
-        // Into the lower half of each pair of lanes, and into the upper.
+        // Even products go into the lower half of each pair of lanes, and odd ones into the upper
+        // half.
         let down = f._mm512_set1_epi64(drop.into());
         let even = f._mm512_srav_epi64(even, down);
         let odd = if drop < 32 {
@@ -223,8 +224,9 @@ impl Vectors for V4 {
     fn table<const L: usize>(self, table: &[i32; L], index: Ints) -> Ints {
         const { assert!(L.is_power_of_two() && L > 1 && L <= 1 << 31) };
         let (f, index) = (self.avx512f, index.lowest(L.trailing_zeros()));
-        // SAFETY: of each index only the bits below L <= 2^31 are left, so as a signed number it is
-        // in 0..L; the scale of 4 is an entry's size; so all that is read is in `table`.
+        // SAFETY: `lowest` keeps only the bits of an index below L <= 2^31, so as a signed number
+        // each index is in 0..L. The scale of 4 is the size of an entry. Therefore every read is
+        // inside `table`.
         let found = unsafe { f._mm512_i32gather_epi32::<4>(index.1, table.as_ptr()) };
         Ints(self, found)
     }

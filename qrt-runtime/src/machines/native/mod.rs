@@ -1,12 +1,12 @@
-//! The native machine: a scene's program as code for vectors of lanes.
+//! The native machine: a scene's program as native code for vectors of lanes.
 //!
-//! It computes what [`qrt_circuit::Contents`] defines, as the fixed machine does, without a
-//! list of steps to look through and without memory between them: `qrt!` writes the program as one
-//! function over [`Vectors`], whose every line is an instruction or a few, and decides by the
-//! registers' ranges which lanes each number takes. The compiler keeps them in the processor's
-//! registers.
+//! It computes what [`qrt_circuit::Contents`] defines, as the fixed machine does, but without a
+//! list of steps to interpret and without memory between the steps. `qrt!` writes the program as
+//! one function over [`Vectors`]. Each line of it is an instruction or a few, and the ranges of the
+//! registers determine the lanes that each number takes. The compiler keeps the numbers in the
+//! processor's registers.
 //!
-//! Nothing is undone: values are computed once, and forgotten.
+//! The code undoes nothing: it computes each value once and then drops it.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -27,25 +27,25 @@ use pulp::NullaryFnOnce;
 use qrt_core::oracle::compiled::CompiledOracle;
 use std::marker::PhantomData;
 
-/// A compiled oracle, as code for vectors too.
+/// A compiled oracle that also has code for vectors.
 #[diagnostic::on_unimplemented(
     message = "there is no native code for the circuit of `{Self}`",
     label = "not compiled to native code",
     note = "`qrt!` writes code for circuits of at most 20,000 operations"
 )]
 pub trait NativeOracle: CompiledOracle {
-    /// Whether the code is there. `qrt!` writes it where it is optimised, and for tests: in other
-    /// builds with `debug_assertions` it would take longer to compile than the rest of the program, and
-    /// run no sooner than the fixed machine, which takes its place.
+    /// True if the code exists. `qrt!` writes it in optimised builds and for tests. In other builds
+    /// with `debug_assertions` it would take longer to compile than the rest of the program, and
+    /// would not finish sooner than the fixed machine, which takes its place.
     const WRITTEN: bool = true;
 
-    /// Computes the paths with these indices in a pixel that has these classical parameters: by
-    /// channel, how many thresholds their colours exceed, before that is cut to `2^c`, and the
-    /// colours.
+    /// Computes the paths `ids` in a pixel with the classical parameters `words`. Returns by
+    /// channel the number of thresholds that the paths' colours exceed, before it is cut to `2^c`,
+    /// and the colours.
     fn native<V: Vectors>(v: V, words: &[u64], ids: V::Longs) -> [[V::Longs; 3]; 2];
 }
 
-/// Runs a part of the code, which has a frame of its own on the stack where it is not inlined.
+/// Runs a part of the code, which has a stack frame of its own if it is not inlined.
 #[doc(hidden)]
 #[inline(always)]
 pub fn block<T>(part: impl FnOnce() -> T) -> T {
@@ -61,7 +61,7 @@ pub(super) struct Run<'a> {
     pub(super) parameters: &'a [u64],
 }
 
-/// Computes runs of paths, one after another: `values[k][path]` becomes the path's k-th output, by
+/// Computes runs of paths, one after another. Sets `values[k][path]` to the path's k-th output: by
 /// channel the counts and, if there are more than three columns, the colours.
 pub(super) fn run<C: NativeOracle>(set: InstructionSet, runs: &[Run<'_>], values: &mut [Vec<i64>]) {
     #[cfg(target_arch = "x86_64")]
@@ -127,7 +127,7 @@ impl<C: NativeOracle, V: Vectors> NullaryFnOnce for NativeTask<'_, C, V> {
     }
 }
 
-/// Some places of a column; none where there is none.
+/// Returns `count` places of a column from `first` on; none if the column does not exist.
 #[inline(always)]
 fn lanes(values: &mut [Vec<i64>], column: usize, first: usize, count: usize) -> &mut [i64] {
     let column = values.get_mut(column);

@@ -176,7 +176,7 @@ fn one(a: i64, b: i64, change: impl FnOnce(&mut [i64], &[i64])) -> i64 {
     lane[0]
 }
 
-/// `floor(a b / 2^drop)` of each pair, in the first's place.
+/// Sets each `a` of `lanes` to `floor(a b / 2^drop)`, with `b` from `others`.
 #[inline(never)]
 pub(super) fn products(lanes: &mut [i64], others: &[i64], drop: u32) {
     for (a, b) in lanes.iter_mut().zip(others) {
@@ -184,7 +184,7 @@ pub(super) fn products(lanes: &mut [i64], others: &[i64], drop: u32) {
     }
 }
 
-/// `floor(a / b)` of each pair, in the first's place; 0 where b is 0.
+/// Sets each `a` of `lanes` to `floor(a / b)`, with `b` from `others`; to 0 where b is 0.
 #[inline(never)]
 pub(super) fn quotients(lanes: &mut [i64], others: &[i64]) {
     for (a, b) in lanes.iter_mut().zip(others) {
@@ -192,7 +192,7 @@ pub(super) fn quotients(lanes: &mut [i64], others: &[i64]) {
     }
 }
 
-/// `floor(sqrt(a))`, in its place.
+/// Sets each `a` of `lanes` to `floor(sqrt(a))`.
 #[inline(never)]
 pub(super) fn roots(lanes: &mut [i64], _: &[i64]) {
     for a in lanes {
@@ -200,7 +200,7 @@ pub(super) fn roots(lanes: &mut [i64], _: &[i64]) {
     }
 }
 
-/// Entries of a table, lane by lane. Called, not inlined: it is long, and rare.
+/// Returns entries of a table, lane by lane. Not inlined, because it is long and rarely called.
 #[inline(never)]
 pub(super) fn entries<const L: usize, const N: usize>(
     table: &[i64; L],

@@ -1,16 +1,16 @@
-//! What an instruction set must offer: vectors of truths and of integers.
+//! Operations that an instruction set must offer: vectors of truths and of integers.
 
-/// Truths, one a lane.
+/// Truths, one per lane.
 pub trait Truths: Copy {
     /// The conjunction of both, lane by lane.
     fn and(self, other: Self) -> Self;
-    /// Where the two differ.
+    /// True where the two differ.
     fn xor(self, other: Self) -> Self;
     /// The negation, lane by lane.
     fn not(self) -> Self;
 }
 
-/// Integers of one width, one a lane. What does not fit is cut off above.
+/// Integers of one width, one per lane. Bits above the width are cut off.
 pub trait Integers<T>: Copy {
     /// `a + b`
     fn add(self, other: Self) -> Self;
@@ -20,61 +20,61 @@ pub trait Integers<T>: Copy {
     fn mul(self, other: Self) -> Self;
     /// The exclusive or, bit by bit.
     fn xor(self, other: Self) -> Self;
-    /// By less than the lanes' width, as all shifts.
+    /// Shifts left. All shifts are by less than the lanes' width.
     fn left(self, by: u32) -> Self;
-    /// With copies of the sign.
+    /// Shifts right, with copies of the sign.
     fn right(self, by: u32) -> Self;
-    /// The lowest bits, with zeros.
+    /// The lowest `bits` bits, extended by zeros.
     fn lowest(self, bits: u32) -> Self;
-    /// Where `a < b`.
+    /// True where `a < b`.
     fn less(self, other: Self) -> T;
-    /// Where any of these bits is set.
+    /// True where any of `bits` is set.
     fn has(self, bits: i64) -> T;
-    /// Itself where `when` holds, the other elsewhere.
+    /// `self` where `when` is true, `other` elsewhere.
     fn choose(self, when: T, other: Self) -> Self;
 }
 
 /// An instruction set's vectors of [`Vectors::LANES`] lanes.
 ///
-/// Each method is one instruction or a few; what depends on widths was decided when the code that
-/// calls them was written.
+/// Each method is one instruction or a few. `qrt!` makes all decisions that depend on widths when
+/// it writes the code that calls them.
 pub trait Vectors: Copy {
-    /// Lanes of a vector.
+    /// Number of lanes of a vector.
     const LANES: usize;
-    /// The truth values of as many lanes.
+    /// Truth values of [`Vectors::LANES`] lanes.
     type Truths: Truths;
-    /// 32 bits a lane.
+    /// Integers of 32 bits a lane.
     type Ints: Integers<Self::Truths>;
-    /// 64 bits a lane.
+    /// Integers of 64 bits a lane.
     type Longs: Integers<Self::Truths>;
 
-    /// The same in all lanes.
+    /// The value `all` in all lanes.
     fn truths(self, all: bool) -> Self::Truths;
-    /// The same in all lanes.
+    /// The value `all` in all lanes.
     fn ints(self, all: i32) -> Self::Ints;
-    /// The same in all lanes.
+    /// The value `all` in all lanes.
     fn longs(self, all: i64) -> Self::Longs;
     /// `first`, `first + 1`, ...
     fn from(self, first: u64) -> Self::Longs;
 
-    /// With copies of the sign.
+    /// Extends every lane to 64 bits with copies of the sign.
     fn widen(self, a: Self::Ints) -> Self::Longs;
-    /// The lowest bits of every lane, as many as fit.
+    /// Keeps the lowest 32 bits of every lane.
     fn narrow(self, a: Self::Longs) -> Self::Ints;
 
-    /// The lowest bits of `a b >> drop`, the product of all bits; `drop < 64`.
+    /// The lowest bits of `a b >> drop`, from all bits of the product; `drop < 64`.
     fn product_above(self, a: Self::Ints, b: Self::Ints, drop: u32) -> Self::Ints;
     /// All bits of `a b`.
     fn product(self, a: Self::Ints, b: Self::Ints) -> Self::Longs;
-    /// The lowest bits of `a b >> drop`, the product of all bits.
+    /// The lowest bits of `a b >> drop`, from all bits of the product.
     fn product_of_longs(self, a: Self::Longs, b: Self::Longs, drop: u32) -> Self::Longs;
 
-    /// `a 2^up / b`, correctly rounded to 24 bits and then down, of numbers that 24 bits hold.
-    /// Anything where b is 0.
+    /// `a 2^up / b`, correctly rounded to 24 bits and then down, of numbers that fit into 24 bits.
+    /// Any value where b is 0.
     fn quotient_single(self, a: Self::Ints, b: Self::Ints, up: u32) -> Self::Ints;
-    /// `floor(a / b)` of numbers in 0 .. 2^52. Anything where b is 0.
+    /// `floor(a / b)` of numbers in 0 .. 2^52. Any value where b is 0.
     fn quotient_double(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
-    /// `floor(a / b)` of numbers that are not negative. Anything where b is 0.
+    /// `floor(a / b)` of numbers that are not negative. Any value where b is 0.
     fn quotient_of_longs(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
     /// `floor(sqrt(a))` of numbers in 0 .. 2^23.
     fn root_single(self, a: Self::Ints) -> Self::Ints;
@@ -89,16 +89,16 @@ pub trait Vectors: Copy {
     fn table32(self, table: &[i32; 32], index: Self::Ints) -> Self::Ints;
     /// The entries that the index's lowest bits name; `L` is a power of two from 2 to 2^31.
     fn table<const L: usize>(self, table: &[i32; L], index: Self::Ints) -> Self::Ints;
-    /// The same of wide entries.
+    /// As [`Vectors::table`], for entries of 64 bits.
     fn wide_table<const L: usize>(self, table: &[i64; L], index: Self::Ints) -> Self::Longs;
-    /// The bits of `table` that the index names, which is below 32.
+    /// The bits of `table` that `index` names, which is below 32.
     fn marks(self, table: u32, index: Self::Ints) -> Self::Truths;
 
-    /// The first lanes, as many as there is place for.
+    /// Stores the first lanes in `lanes`, until that is full.
     fn store(self, a: Self::Longs, lanes: &mut [i64]);
 }
 
-/// The lowest `width` bits of a classical parameter, extended by zeros or copies of the top one.
+/// The lowest `width` bits of the parameter `place`, extended by zeros or by copies of the top bit.
 #[inline(always)]
 pub fn word(words: &[u64], place: usize, width: u32, signed: bool) -> i64 {
     let word = words.get(place).copied().unwrap_or(0);

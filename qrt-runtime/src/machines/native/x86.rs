@@ -1,7 +1,7 @@
-//! What the vectors of AVX2 and AVX-512 have in common: `Ints(simd, register)` and
-//! `Longs(simd, [register, register])`, the first half of the lanes and the last.
+//! Macros that the vectors of AVX2 and AVX-512 share. In both, vectors are `Ints(simd, register)`
+//! and `Longs(simd, [register, register])`, with the first half of the lanes and the last.
 //!
-//! Macros and not functions of closures: a closure is compiled without the instruction set until it
+//! They are macros, not functions that take closures: a closure uses the instruction set only if it
 //! is inlined, which is left to chance.
 
 /// An instruction on two registers.
@@ -42,7 +42,8 @@ macro_rules! shifts {
     };
 }
 
-/// Lanes that are changed one by one, beside those of another vector: for what no instruction does.
+/// Changes lanes one by one, given those of another vector, for operations that no instruction
+/// does.
 macro_rules! lane_by_lane {
     ($a:expr, $b:expr, $change:ident $(, $more:expr)?) => {{
         let mut lanes: [i64; Self::LANES] = pulp::cast($a.1);

@@ -1,10 +1,11 @@
 //! Rounding errors of colours near their bound.
 
-/// Thresholds beyond the bound that are no fault, out of `2^bits`, for colours of `fraction` bits: a
-/// sixty-fourth of the bound, or sixteen units in the last place where these are more.
+/// Number of thresholds, out of `2^bits`, by which a colour of `fraction` bits may exceed its
+/// bound: a 64th of the bound, or 16 units in the last place if these are more.
 ///
-/// A colour is a sum of products of weights, each rounded to `fraction` bits. The example scenes exceed
-/// their bounds by nothing at 8 to 16 bits; a refraction or a lamp too many adds a fourth or more.
+/// A colour is a sum of products of weights, each rounded to `fraction` bits. The example scenes do
+/// not exceed their bounds at 8 to 16 bits. A refraction or a lamp too many, which is a defect,
+/// adds a quarter or more.
 pub(super) fn slack(bits: u32, fraction: u32) -> i64 {
     let most = 1_i64 << bits;
     let ulps = (16 << bits) >> fraction;

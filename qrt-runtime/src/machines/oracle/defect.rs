@@ -1,10 +1,11 @@
-//! What shows that a circuit is not the oracle that it must be.
+//! Defects, which show that a circuit is not the oracle that it must be.
 
 use crate::machines::gates::{Dirty, InvalidGate};
 use qrt_circuit::Qubit;
 
-/// Why a run of an oracle ended early: but for [`Defect::Cancelled`], a circuit that does not do what it must,
-/// which is a defect of qrt.
+/// Reason for which a run of an oracle ended early. Except for [`Defect::Cancelled`] and
+/// [`Defect::PrimaryHits`], it is a circuit that does not do what it must, which is a defect of
+/// qrt.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Defect {
@@ -23,7 +24,7 @@ pub enum Defect {
         pixel: [u32; 2],
         /// The path's index.
         id: u64,
-        /// What the qubit was last used for.
+        /// The register that the qubit belongs to after compute, or `an ancilla`.
         register: String,
     },
     /// A path whose index, or another input of the oracle, was changed.
@@ -34,8 +35,8 @@ pub enum Defect {
         /// The path's index.
         id: u64,
     },
-    /// A path whose colour is beyond its bound by more than rounding: counted, it would be cut to the bound,
-    /// and the picture would be too dark.
+    /// A path whose colour exceeds its bound by more than rounding. Counting would cut the colour
+    /// to the bound, and the picture would be too dark.
     #[error(
         "path {id} of pixel ({}, {}) exceeds {count} thresholds in {}, of {most} that its bound has",
         .pixel[0], .pixel[1], channel_name(*.channel)
@@ -52,13 +53,13 @@ pub enum Defect {
         /// The number of thresholds up to the bound: `2^c`.
         most: i64,
     },
-    /// It was to stop: see [`super::OracleMachine::trace_until`].
+    /// The caller cancelled the run: see [`super::OracleMachine::trace_until`].
     #[error("the run was cancelled")]
     Cancelled,
-    /// Paths whose primary hits are inputs of the oracle, with nothing that finds them.
+    /// The oracle has primary hits as inputs, and the machine has no search for them.
     #[error("the paths' primary hits are inputs of the oracle, and nothing finds them")]
     PrimaryHits,
-    /// A phase that was flipped, or not, against the comparison.
+    /// A phase that is flipped, or not flipped, contrary to the comparison.
     #[error(
         "channel {channel}: the phase of comparator {comparator} is wrong for a colour above \
          {count} thresholds"
@@ -71,7 +72,7 @@ pub enum Defect {
         /// The comparator y, in `0..2^c`.
         comparator: u64,
     },
-    /// A comparison that changes what it compares.
+    /// A comparison that changes its colour or its comparator.
     #[error(
         "channel {channel}: comparing comparator {comparator} with a colour above {count} \
          thresholds changes one of them"

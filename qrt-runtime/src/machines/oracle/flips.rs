@@ -1,4 +1,4 @@
-//! The comparisons between compute and uncompute, on all that they can meet.
+//! Tests of the comparisons between compute and uncompute, on all of their inputs.
 
 use super::{Defect, OracleCircuits};
 use crate::machines::gates::{Gates, Rows};
@@ -7,11 +7,11 @@ use qrt_core::oracle::{Channel, Oracle};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Most bits of a colour and a comparator together that are tried in all pairs. With more, every
-/// colour is tried with the comparators at, next to, and far from the threshold.
+/// Largest number of bits of a colour and a comparator together for which all pairs are tried. With
+/// more bits, many colours are tried with the comparators at, next to, and far from the threshold.
 const EXHAUSTIVE: u32 = 26;
 
-/// Six bits of the numbers 0 to 63, each number's at its place.
+/// Bits 0 to 5 of the numbers 0 to 63: bit `n` of word `k` is bit `k` of number `n`.
 const COUNTING: [u64; 6] = [
     0xaaaa_aaaa_aaaa_aaaa,
     0xcccc_cccc_cccc_cccc,
@@ -21,10 +21,10 @@ const COUNTING: [u64; 6] = [
     0xffff_ffff_0000_0000,
 ];
 
-/// Tries the comparison of every channel, for every colour and comparator.
+/// Tries the comparison of every channel, on its [`Pairs`] of a colour and a comparator.
 ///
 /// # Errors
-/// The first defect that shows.
+/// The first defect found.
 pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Defect> {
     let flips = oracle.channels.iter().zip(&parts.flips);
     for (channel, flip) in flips {
@@ -57,7 +57,7 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
                 let changed =
                     changed.fold(0, |any, (q, was)| any | rows.bits(*q)[word] ^ was[word]);
                 let wrong = changed | (signs ^ expected);
-                // Lanes beyond the last pair hold a pair as well.
+                // The lanes after the last pair also hold a pair, but their results do not count.
                 let lane = u64::from(wrong.trailing_zeros());
                 if wrong == 0 || first + lane >= end {
                     return None;
@@ -92,7 +92,7 @@ struct Flip {
     circuit: Circuit,
     colour: Vec<Qubit>,
     comparator: Vec<Qubit>,
-    /// By qubit of `circuit`: the qubit that it is.
+    /// By qubit of `circuit`: its number in the oracle's circuits.
     names: Vec<Qubit>,
     pairs: Pairs,
 }
@@ -109,7 +109,8 @@ impl Flip {
         let mut names = [&colour[..], comparator].concat();
         let pairs = Pairs::new(channel.count, colour.len() as u32, oracle.comparator_bits());
         let mut places: HashMap<Qubit, Qubit> = names.iter().copied().zip(0..).collect();
-        // All others are zero when it begins, unless they hold something.
+        // All other qubits are zero at the beginning, except those that hold the content of a
+        // register.
         let held = parts.compute.outputs.iter().flat_map(|(_, qubits)| qubits);
         let mut foreign = vec![false; parts.compute.qubits as usize];
         for qubit in held.filter(|qubit| !places.contains_key(qubit)) {
@@ -161,10 +162,10 @@ impl Flip {
         })
     }
 
-    /// Sets colour and comparator to these pairs, one a lane.
+    /// Sets colour and comparator to `pairs`, one pair per lane.
     fn set(&self, rows: &mut Rows, pairs: Range<u64>) {
         if self.pairs.all {
-            // Lane after lane they are the bits of a number that counts up.
+            // From lane to lane, their bits are those of a number that counts up.
             for (bit, qubit) in self.held().into_iter().enumerate() {
                 for (word, first) in rows
                     .bits_mut(qubit)
@@ -188,14 +189,14 @@ impl Flip {
         rows.set(&self.comparator, &comparators);
     }
 
-    /// The qubits that may hold something else than zero: the colour's and the comparator's.
+    /// Qubits that may be non-zero: the colour's and the comparator's.
     fn held(&self) -> Vec<Qubit> {
         [&self.colour[..], &self.comparator].concat()
     }
 }
 
-/// Pairs of a count register's bits and a comparator: all of them, or where these are too many, for
-/// each of many colours the comparators about its threshold.
+/// Pairs of a count register's bits and a comparator. If all pairs are too many, they are many
+/// colours, each with comparators about its threshold.
 struct Pairs {
     operand: Operand,
     count_bits: u32,
@@ -221,7 +222,7 @@ impl Pairs {
         }
     }
 
-    /// The signs that up to 64 pairs are to have, the first lowest.
+    /// Returns the expected signs of up to 64 pairs, the first in the lowest bit.
     fn signs(&self, pairs: Range<u64>) -> u64 {
         pairs.rev().fold(0, |signs, pair| {
             let (colour, comparator) = self.pair(pair);
@@ -236,8 +237,8 @@ impl Pairs {
         if self.all {
             return (number & colours, number >> self.count_bits & comparators);
         }
-        // Colours far apart, by a multiplier that is prime to any power of two; comparators next
-        // to each one's threshold, and one far away.
+        // An odd multiplier spreads the colours far apart. Each colour has three comparators next
+        // to its threshold, and one far away.
         let colour = (number >> 2).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7 & colours;
         let near = self.count_of(colour).clamp(0, i64::MAX).cast_unsigned();
         let comparator = match number & 3 {
@@ -249,7 +250,7 @@ impl Pairs {
         (colour, comparator & comparators)
     }
 
-    /// The number that a count register's bits stand for.
+    /// Returns the number that a count register's bits stand for.
     fn count_of(&self, bits: u64) -> i64 {
         match self.operand {
             Operand::Constant(value) => value,

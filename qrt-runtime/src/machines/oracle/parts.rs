@@ -1,4 +1,4 @@
-//! An oracle as circuits: what the gates machine runs.
+//! An oracle as circuits, which the gates machine runs.
 
 use qrt_circuit::{Circuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
 use qrt_core::oracle::{MOST_BITS, Oracle};
@@ -13,37 +13,42 @@ pub struct OracleCircuits {
     pub flips: Vec<Circuit>,
     /// From colours back to path indices alone.
     pub uncompute: Circuit,
-    /// What takes the place of the gates of compute and uncompute where these are too many to be held.
+    /// A replacement for the gates of compute and uncompute, if these are too many to be held in
+    /// memory.
     pub(super) streamed: Option<Box<Streamed>>,
 }
 
-/// A program whose gates are made anew each time they run.
+/// A program whose gates are generated anew each time they run.
 #[derive(Clone, Debug)]
 pub(super) struct Streamed {
     /// Compute and uncompute.
     pub(super) program: Program,
     /// The first instruction of uncompute.
     pub(super) cut: usize,
-    /// Held while one thread runs it: rows of so many qubits are there once.
+    /// Lock of the thread that runs a very large program: there is memory for one set of its rows
+    /// only.
     pub(super) turn: Arc<Mutex<()>>,
     gates: usize,
 }
 
 impl OracleCircuits {
-    /// With more bits in registers than these, gates of compute and uncompute are not held.
+    /// Largest number of bits in registers for which the gates of compute and uncompute are held in
+    /// memory.
     pub const MOST_BITS: u64 = MOST_BITS;
 
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
     ///
-    /// If registers come to more than [`OracleCircuits::MOST_BITS`], the gates of compute and uncompute are not
-    /// held: [`Circuit::gates`] is empty, and the gates machine lowers operations as it runs them.
+    /// If the registers have more than [`OracleCircuits::MOST_BITS`] bits, the gates of compute and
+    /// uncompute are not held: [`Circuit::gates`] is empty, and the gates machine lowers operations
+    /// as it runs them.
     pub fn new(oracle: &Oracle) -> Self {
         let widths = oracle.program.registers.iter();
         let bits: u64 = widths.map(|register| u64::from(register.width)).sum();
         Self::lowered(oracle, bits <= Self::MOST_BITS)
     }
 
-    /// Lowers an oracle to gates, those of compute and uncompute held or not.
+    /// Lowers an oracle to gates. If `held` is false, the gates of compute and uncompute are not
+    /// held.
     pub(super) fn lowered(oracle: &Oracle, held: bool) -> Self {
         let mut whole = oracle.program.clone();
         let undo = whole.inverse().instructions;
@@ -88,7 +93,7 @@ impl OracleCircuits {
         }
     }
 
-    /// Gates of all parts.
+    /// Number of gates of all parts.
     pub fn gates(&self) -> usize {
         let flips = self.flips.iter().map(|flip| flip.gates.len());
         let streamed = self.streamed.as_ref().map_or(0, |streamed| streamed.gates);
@@ -112,7 +117,7 @@ impl OracleCircuits {
         qubits(&self.compute, register)
     }
 
-    /// What a qubit belongs to after compute.
+    /// Name of the register that a qubit belongs to after compute.
     pub(super) fn name(&self, oracle: &Oracle, qubit: Qubit) -> String {
         name(&self.compute, &oracle.program, qubit)
     }
@@ -125,7 +130,8 @@ pub(in crate::machines) fn qubits(compute: &Circuit, register: RegisterId) -> &[
         .map_or(&[], |(_, qubits)| qubits)
 }
 
-/// The register of `program` that a qubit belongs to after `compute`, or that it belongs to none.
+/// Name of the register of `program` that a qubit belongs to after `compute`; `an ancilla` if there
+/// is none.
 pub(in crate::machines) fn name(compute: &Circuit, program: &Program, qubit: Qubit) -> String {
     let mut held = compute.outputs.iter();
     let register = held.find(|(_, qubits)| qubits.contains(&qubit));
@@ -158,7 +164,8 @@ comparator: { bits: 6 }
 sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }] }
 ";
 
-    /// What the gates machine hands over of every path of every pixel: counts and colours by channel.
+    /// Returns the counts and colours of every path of every pixel, by channel, from the gates
+    /// machine.
     fn traced(oracle: &Arc<Oracle>, parts: OracleCircuits) -> Result<[Vec<i64>; 6], Defect> {
         let machine = OracleMachine::of_parts(Arc::clone(oracle), parts, 3, true)?;
         let pixels: Vec<[u32; 2]> = (0..6).map(|n| [n % 3, n / 3]).collect();
@@ -185,7 +192,7 @@ sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }] }
         let of_held = traced(&oracle, held).unwrap();
         assert_eq!(of_held.concat().len(), 6 * 6 * 512);
         assert!(traced(&oracle, streamed.clone()).unwrap() == of_held);
-        // An operation less is noticed.
+        // A missing operation is found.
         let mut wrong = streamed;
         if let Some(streamed) = &mut wrong.streamed {
             streamed.program.instructions.pop();

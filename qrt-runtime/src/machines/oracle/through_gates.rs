@@ -1,4 +1,4 @@
-//! Blocks of paths through the gates: compute, read, uncompute, look at every qubit.
+//! Runs blocks of paths through the gates: compute, read, uncompute, check every qubit.
 
 use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
@@ -8,11 +8,11 @@ use qrt_circuit::lower::{self, Templates};
 use qrt_circuit::{Qubit, Word};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Gates of a streamed circuit that are run together.
+/// Number of gates of a streamed circuit that run together.
 const AT_ONCE: usize = 1 << 14;
 
 impl OracleMachine {
-    /// Runs a block's paths, as many on each of `rows` as they hold.
+    /// Runs a block's paths, divided among `rows`.
     pub(super) fn run_gates(
         &self,
         gates: &Gates,
@@ -42,7 +42,7 @@ impl OracleMachine {
                     continue;
                 };
                 let qubits = parts.qubits(*output);
-                // The word is all that is read.
+                // `qubits` are those of the word alone, so it begins at offset 0.
                 let alone = Word { offset: 0, ..word };
                 for (rows, values) in rows.iter().zip(values[..count].chunks_mut(lanes)) {
                     let mut bits = vec![0; values.len()];
@@ -75,8 +75,8 @@ impl OracleMachine {
 }
 
 impl Streamed {
-    /// Lowers the program and runs its gates, some at a time; between compute and uncompute, `read` is
-    /// called.
+    /// Lowers the program and runs its gates, some at a time. Calls `read` between compute and
+    /// uncompute.
     fn run(
         &self,
         cancel: Option<&AtomicBool>,
@@ -121,8 +121,9 @@ impl Streamed {
     }
 }
 
-/// That after uncompute all qubits are zero again but those of `inputs`, which hold what they held.
-/// `path` says which pixel and path a lane is, `name` what a qubit belongs to.
+/// Checks that after uncompute all qubits are zero again, except those of `inputs`, which must hold
+/// their old contents. `path` returns the pixel and the path of a lane, and `name` the register of
+/// a qubit.
 pub(in crate::machines) fn check(
     rows: &Rows,
     inputs: &[(&[Qubit], &[u64])],

@@ -5,10 +5,11 @@ use qrt_circuit::quantum::{Counting, PhaseOracle, QuantumGate};
 use qrt_core::oracle::Oracle;
 use qrt_core::scene::Window;
 
-/// Most that ancillas may be excited by: what rounding leaves of a window's bond.
+/// Largest probability with which ancillas may be excited: rounding leaves a window's bond excited
+/// by up to this much.
 const CLEAN: f64 = 1e-28;
 
-/// When ancillas are looked at.
+/// Times at which ancillas are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Checks {
     /// After the preparation, after each query, and at the end.
@@ -17,7 +18,7 @@ pub enum Checks {
     AtTheEnd,
 }
 
-/// What a run of the counting circuit measures, and what it took.
+/// Result of a run of the counting circuit: the distribution that it measures, and its resources.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counted {
     /// `P(theta~)`, by outcome `y = 0 ..= T/2`.
@@ -26,28 +27,30 @@ pub struct Counted {
     pub report: Report,
 }
 
-/// What a run of the counting circuit took.
+/// Resources that a run of the counting circuit took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Qubits: those of the index, the ancillas and the phase register.
+    /// Number of qubits: those of the index, the ancillas and the phase register.
     pub qubits: u32,
-    /// Of these, the ones in superposition: those of the index and the phase register.
+    /// Number of qubits in superposition: those of the index and the phase register.
     pub superposed: u32,
-    /// How many gates were executed.
+    /// Number of gates that were executed.
     pub gates: u64,
     /// Calls of the oracle, compute and uncompute each.
     pub queries: u64,
-    /// The most basis states with amplitude at a time; none where all are kept.
+    /// Largest number of basis states with amplitude at a time; `None` if the machine keeps all
+    /// states.
     pub most_states: Option<u64>,
-    /// How often all ancillas were looked at, and were zero in every basis state with amplitude.
+    /// Number of checks of all ancillas, each of which found zero in every basis state with
+    /// amplitude.
     pub checks: u64,
     /// The sum of all probabilities.
     pub norm: f64,
-    /// The probability of the states that were dropped as too small.
+    /// The probability of the states that were dropped because their amplitudes are too small.
     pub dropped: f64,
 }
 
-/// Outcomes y and T - y mean the same theta~: their probabilities, added, for `y = 0 ..= T/2`.
+/// Adds the probabilities of outcomes y and T - y, which mean the same theta~, for `y = 0 ..= T/2`.
 pub fn fold(outcomes: &[f64]) -> Vec<f64> {
     let size = outcomes.len();
     if size == 0 {
@@ -63,7 +66,7 @@ pub fn fold(outcomes: &[f64]) -> Vec<f64> {
 /// Runs a counting circuit on a machine whose qubits are zero, gate by gate.
 ///
 /// # Errors
-/// What the machine refuses; an ancilla that does not return to zero.
+/// Errors of the machine; an ancilla that does not return to zero.
 pub fn count<M: StateVector>(
     machine: &mut M,
     counting: &Counting<'_>,
@@ -139,9 +142,9 @@ impl<M: StateVector> Run<'_, M> {
 }
 
 /// Counts the good indices of channel number `channel` of a pixel (column, row) by the whole
-/// circuit, on the sparse machine: every Hadamard, every gate of every controlled query with all
-/// its ancillas, the window and the inverse Fourier transform, for a phase register of
-/// `phase_bits`.
+/// circuit, on the sparse machine. It runs every Hadamard, every gate of every controlled query
+/// with all its ancillas, the window and the inverse Fourier transform, for a phase register of
+/// `phase_bits` bits.
 ///
 /// ```
 /// use qrt_core::front::parse;
@@ -171,8 +174,8 @@ impl<M: StateVector> Run<'_, M> {
 /// ```
 ///
 /// # Errors
-/// No such channel or phase register, more states than the machine allows, an ancilla that does
-/// not return to zero.
+/// If the channel or the phase register does not exist, there are more states than the machine
+/// allows, or an ancilla does not return to zero.
 pub fn counting_of(
     oracle: &Oracle,
     channel: usize,

@@ -5,7 +5,7 @@ use qrt_circuit::Qubit;
 use qrt_circuit::quantum::QuantumError;
 use qrt_core::oracle::OracleError;
 
-/// Why amplitudes cannot be followed as asked.
+/// Reason for which amplitudes cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateVectorError {
@@ -23,27 +23,27 @@ pub enum StateVectorError {
     /// More basis states with amplitude than the sparse machine may hold.
     #[error("{states} basis states with amplitude; at most {most} are allowed")]
     TooManyStates {
-        /// As many as a gate asks for, at least.
+        /// Number of states that the gates need, at least.
         states: u64,
         /// The most basis states that are allowed.
         most: u64,
     },
-    /// So much memory cannot be had.
+    /// There is not enough memory.
     #[error("no {bytes} bytes of memory for amplitudes")]
     Memory {
-        /// How many bytes were asked for.
+        /// Number of bytes that are needed.
         bytes: u64,
     },
     /// A gate or a register names a qubit that the machine does not have, or one twice.
     #[error("qubit {0} is used twice by one gate or register, or is none of the machine's")]
     InvalidQubit(Qubit),
-    /// Nothing can be measured: all states have been dropped.
+    /// No state can be measured, because all have been dropped.
     #[error("no state carries amplitude: all have been dropped")]
     NoStates,
     /// An angle that is not finite.
     #[error("a rotation by {0}")]
     Angle(f64),
-    /// A register whose outcomes are too many to be listed.
+    /// A register with too many outcomes to list.
     #[error("a register of {bits} qubits has too many outcomes to list; at most {most} qubits")]
     RegisterTooWide {
         /// The register's qubits.
@@ -57,20 +57,20 @@ pub enum StateVectorError {
          read as 1"
     )]
     Dirty {
-        /// The first such qubit.
+        /// The first ancilla that is not zero.
         qubit: Qubit,
-        /// The probability that one of them is read as 1.
+        /// The probability that one of the ancillas is read as 1.
         probability: f64,
     },
-    /// A truth table that does not have a power of two of entries.
+    /// A truth table whose number of entries is not a power of two.
     #[error("a truth table of {0} entries, not a power of two")]
     TableSize(usize),
-    /// A phase register that is too large to be followed.
+    /// A phase register with too many amplitudes to compute.
     #[error("amplitudes of a phase register of {bits} bits; at most {most}")]
     PhaseBits {
         /// The phase register's qubits.
         bits: u32,
-        /// The most qubits of a phase register that is followed.
+        /// The most qubits of a phase register that is computed.
         most: u32,
     },
     /// The circuit cannot be made.
@@ -79,12 +79,12 @@ pub enum StateVectorError {
     /// The scene has no oracle.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// S and N are no counts, or the phase register is out of range.
+    /// S and N are not valid counts, or the phase register is out of range.
     #[error(transparent)]
     Counts(#[from] CountingError),
 }
 
-/// That all `qubits` are different and among `0..count`.
+/// Checks that all `qubits` are different and among `0..count`.
 pub(super) fn check_qubits(qubits: &[Qubit], count: u32) -> Result<(), StateVectorError> {
     for (place, qubit) in qubits.iter().enumerate() {
         if *qubit >= count || qubits[..place].contains(qubit) {
@@ -94,7 +94,7 @@ pub(super) fn check_qubits(qubits: &[Qubit], count: u32) -> Result<(), StateVect
     Ok(())
 }
 
-/// A vector of `len` copies, if there is memory for it.
+/// Creates a vector of `len` copies, if there is memory for it.
 pub(super) fn filled<T: Clone>(value: T, len: usize) -> Result<Vec<T>, StateVectorError> {
     let mut all = Vec::new();
     let bytes = (len as u64).saturating_mul(size_of::<T>() as u64);

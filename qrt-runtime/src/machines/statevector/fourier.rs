@@ -1,8 +1,8 @@
-//! The Fourier transform that the phase register's gates amount to, as a fast one.
+//! The Fourier transform that the phase register's gates amount to, computed as a fast one.
 
 use std::f64::consts::TAU;
 
-/// A transform of `2^bits` values, whose factors are known.
+/// A transform of `2^bits` values, with precomputed factors.
 pub(super) struct Fourier {
     bits: u32,
     /// `exp(-2 pi i k / 2^bits)`, for the first half of k.
@@ -12,7 +12,8 @@ pub(super) struct Fourier {
 impl Fourier {
     pub(super) fn new(bits: u32) -> Self {
         let size = 1_usize << bits;
-        // Each is right to an ulp: from the nearest multiple of a quarter turn.
+        // Each factor is right to an ulp, because its angle counts from the nearest multiple of a
+        // quarter turn.
         let factor = |k: usize| {
             let eighth = 8 * k / size;
             let angle = |k: usize| TAU * (k as f64 / size as f64);
@@ -35,12 +36,13 @@ impl Fourier {
         }
     }
 
-    /// Replaces `values[j]` by `sum_j values[j] exp(-2 pi i j y / T)`, not divided by anything;
-    /// that of y comes to stand at [`Fourier::place`]. Real and imaginary parts apart, L transforms
-    /// at once.
+    /// Replaces `values[j]` by `sum_j values[j] exp(-2 pi i j y / T)`, without normalization. The
+    /// result for y is at [`Fourier::place`]. Real and imaginary parts are separate, and L
+    /// transforms run at once.
     #[inline(always)]
     pub(super) fn transform<const L: usize>(&self, re: &mut [[f64; L]], im: &mut [[f64; L]]) {
-        // Decimation in frequency (Gentleman & Sande, 1966): in order in, bits reversed out.
+        // Decimation in frequency (Gentleman & Sande, 1966): input in order, output in bit-reversed
+        // order.
         for level in (0..self.bits).rev() {
             let half = 1 << level;
             let stride = self.factors.len() >> level;
@@ -64,7 +66,7 @@ impl Fourier {
         }
     }
 
-    /// Where the transform leaves the value of y.
+    /// Position at which the transform leaves the value of y.
     pub(super) fn place(&self, y: usize) -> usize {
         y.reverse_bits() >> (usize::BITS - self.bits)
     }

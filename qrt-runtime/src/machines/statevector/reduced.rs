@@ -1,10 +1,11 @@
-//! Amplitudes over (phase register, index): what is left once ancillas are known to return.
+//! Amplitudes over (phase register, index), for ancillas that are known to return to zero.
 //!
-//! The oracle is a sign for each index, and diffusion twice the mean less each amplitude. Under a
-//! phase register of value j the indices hold `w_j G^j |s>`, whose amplitudes are real, and those
-//! of one more query follow from those of one less. Only the mean joins the indices: with the means
-//! known, each index's amplitudes for all values j follow by themselves, and its Fourier transform
-//! over the phase register. `O(T N log T)` time, `O(T + N)` memory.
+//! The oracle is a sign for each index, and diffusion is twice the mean less each amplitude. For
+//! value j of the phase register, the indices hold `w_j G^j |s>`. Its amplitudes are real, and
+//! those of one more query follow from those of one less. Only the mean connects the indices. Once
+//! the means are known, the amplitudes of each index for all values j can be computed separately,
+//! and so can its Fourier transform over the phase register. The computation takes `O(T N log T)`
+//! time and `O(T + N)` memory.
 
 use super::error::filled;
 use super::fourier::Fourier;
@@ -15,16 +16,17 @@ use pulp::{Simd, WithSimd};
 use qrt_core::scene::Window;
 use rayon::prelude::*;
 
-/// Transforms at once, of two indices each: one is the real part, one the imaginary one.
+/// Number of transforms at once. Each has two indices: one is the real part, one the imaginary
+/// part.
 const LANES: usize = 8;
 
 /// Most bits of a phase register: a batch of transforms takes 128 bytes for each value.
 const MOST_PHASE_BITS: u32 = 20;
 
-/// Indices whose amplitudes are summed in a run.
+/// Number of indices whose amplitudes are summed in a run.
 const RUN: usize = 1 << 12;
 
-/// Parts of the indices, each of which is transformed by itself, and summed up.
+/// Number of parts of the indices. Each part is transformed and summed separately.
 const PARTS: usize = 32;
 
 /// The distribution of counting over a truth table, `good[id]`: by outcome `y = 0 ..= T/2`.
@@ -43,7 +45,7 @@ const PARTS: usize = 32;
 /// ```
 ///
 /// # Errors
-/// A table whose size is no power of two, or a phase register that is not in 1 to 20 bits.
+/// If the table's size is not a power of two, or the phase register is not in 1 to 20 bits.
 pub fn reduced(
     good: &[bool],
     phase_bits: u32,
@@ -86,7 +88,7 @@ pub fn reduced(
 
     let fourier = Fourier::new(phase_bits);
     let batches: Vec<&[f64]> = signs.chunks(2 * LANES).collect();
-    // Always the same sums, in the same order.
+    // The parts do not depend on threads, so the sums are always the same, in the same order.
     let parts = batches.par_chunks(batches.len().div_ceil(PARTS));
     let parts: Vec<Vec<f64>> = parts
         .map(|batches| {
@@ -114,7 +116,8 @@ pub fn reduced(
             parts.iter().map(|sums| sums[place]).sum::<f64>() / size as f64
         })
         .collect();
-    // A pair's transforms are told apart by y and T - y, which folding adds.
+    // The transforms of a pair of indices would be separated by y and T - y. Folding adds these
+    // two, so there is no need to separate them.
     Ok(fold(&all))
 }
 
@@ -129,7 +132,7 @@ impl WithSimd for Sum<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
-        // Eight partial sums, whatever the vectors: the same bits.
+        // Eight partial sums for vectors of any width, so that the bits are the same.
         let mut sums = [0.0; 8];
         let (signs, signs_rest) = self.signs.as_chunks::<8>();
         let (amplitudes, rest) = self.amplitudes.as_chunks::<8>();

@@ -1,9 +1,10 @@
 //! The plane of good and bad indices: two amplitudes for each value of the phase register.
 //!
-//! All good indices have one amplitude and all bad indices another, so that G is a rotation of that
-//! plane, by `2 phi` with `sin(phi)^2 = S/N`. Under a phase register of value j stands
-//! `w_j (sin((2j+1) phi), cos((2j+1) phi))`: both real, one the real and one the imaginary part of
-//! what is transformed. `O(T log T)`, exact from S and N.
+//! All good indices have one amplitude and all bad indices another. Therefore G is a rotation of
+//! that plane, by `2 phi` with `sin(phi)^2 = S/N`. The amplitudes for value j of the phase register
+//! are `w_j (sin((2j+1) phi), cos((2j+1) phi))`. Both are real: one is the real part and one the
+//! imaginary part of the values that are transformed. The computation takes `O(T log T)` time and
+//! is exact from S and N.
 
 use super::error::filled;
 use super::fourier::Fourier;
@@ -27,7 +28,8 @@ pub(super) const MOST_PHASE_BITS: u32 = 24;
 /// ```
 ///
 /// # Errors
-/// No indices, more good indices than indices, or a phase register that is not in 1 to 24 bits.
+/// If there are no indices, more good indices than indices, or the phase register is not in 1 to 24
+/// bits.
 pub fn subspace(
     good: u64,
     total: u64,
@@ -42,7 +44,7 @@ pub fn subspace(
         });
     }
     let size = 1_usize << phase_bits;
-    // To 100 bits: the phase of G^(2^k) has 2^k times the error of G's.
+    // To 100 bits, because the phase of G^(2^k) has 2^k times the error of the phase of G.
     let all = Double::from(total);
     let (sine, cosine) = (
         Double::from(good).divide(all).sqrt(),

@@ -1,4 +1,4 @@
-//! What counting is held against.
+//! Tests of the rivals of counting.
 
 use super::super::bench::{Bench, Effort};
 use super::super::sweep::settings;
@@ -9,7 +9,7 @@ use crate::workers::Workers;
 use qrt_core::scene::Sequence;
 use qrt_core::valid::ValidScene;
 
-/// Two small lamps out of sight, and sampled.
+/// A scene with two small lamps, out of sight and sampled.
 fn lit() -> String {
     let lamp = "[[-1, 1.5, -1], [1, 1.5, -1], [1, 1.5, 1], [-1, 1.5, 1]], material: lamp }";
     let two = "[[-0.3, 3, 0], [0, 3, 0], [0, 3, 0.6], [-0.3, 3, 0.6]], material: lamp }
@@ -45,8 +45,10 @@ fn rival(bench: &mut Bench<'_>, scene: &ValidScene, sweep: Sweep) -> Vec<(f64, f
     rows.collect()
 }
 
-/// A net that is run classically is off by what the scene's own is off by before it is counted, and
-/// random paths by one over the square root of their number.
+/// Checks the errors of rivals against the scene's own net and against theory.
+///
+/// A net that is run classically has the error of the scene's own net before counting. The error of
+/// random paths falls as one over the square root of their number.
 #[test]
 fn rivals_are_measured_against_the_same_limit() {
     let scene = scene(&lit());
@@ -67,14 +69,16 @@ fn rivals_are_measured_against_the_same_limit() {
             }
         }
     }
-    // Of smaller nets there are several, of which the scene's is the first, by chance nearer or farther.
+    // The rival averages over several smaller nets. The scene's net is the first of them, by chance
+    // nearer or farther.
     let middle = smaller.iter().product::<f64>().cbrt();
     assert!(
         smaller.len() == 3 && (0.6..1.7).contains(&middle),
         "{smaller:?}"
     );
     let random = rival(&mut bench, &scene, Sweep::RandomPaths);
-    // More paths are tried than of a net, which is ahead with as many.
+    // There are rows with more random paths than the largest net has. At equal numbers the net is
+    // ahead.
     assert!(random.len() > nets.len() && nets[5].1 < 0.3 * random[5].1);
     let law = |(paths, off): &(f64, f64)| (off * paths.sqrt() / random[0].1 - 1.0).abs() < 1e-9;
     assert!(random.iter().all(law), "{random:?}");
@@ -83,7 +87,7 @@ fn rivals_are_measured_against_the_same_limit() {
     assert!((0.7..1.4).contains(&ratio), "{ratio}");
 }
 
-/// Rivals sample lamps where the scene does not, and come nearer to the same limit.
+/// Checks that rivals sample lamps that the scene does not, and come nearer to the same limit.
 #[test]
 fn rivals_sample_lamps_that_the_scene_does_not() {
     let scene = scene(&lit().replace(", light: [8, 8]", ""));
@@ -95,7 +99,7 @@ fn rivals_sample_lamps_that_the_scene_does_not() {
     assert!(10.0 * nets[2].1 < blind.errors[0].value);
 }
 
-/// A lattice with fewer bits than lamps is no scene, and it is said why.
+/// Checks that a lattice with fewer bits than lamps is left out, with the reason.
 #[test]
 fn a_setting_that_cannot_choose_among_lamps_is_left_out() {
     let scene = scene(&lit());

@@ -1,4 +1,4 @@
-//! Programs' comparison with their definition.
+//! Compares programs with their definition.
 
 use super::maker::{Maker, PARAMETERS};
 use crate::machines::fixed::compile::negative;
@@ -14,7 +14,7 @@ impl Maker {
         self.check_only(states, others, &all);
     }
 
-    /// As [`Maker::check`], of some registers.
+    /// As [`Maker::check`], but only for some registers.
     pub(super) fn check_only(self, states: &[u64], others: &[u64], registers: &[RegisterId]) {
         let program = self.program;
         let mut dice = self.dice;
@@ -39,7 +39,8 @@ impl Maker {
                 contents(&program, &[*id, *other], &pixels[usize::from(lane >= half)])
             })
             .collect();
-        // All registers; and few of them, so that steps are left out, joined and given used slots.
+        // All registers, and then a few, so that the compiler leaves out steps, fuses steps and
+        // reuses slots.
         let few: Vec<Word> = outputs
             .iter()
             .copied()

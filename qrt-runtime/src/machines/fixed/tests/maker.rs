@@ -5,7 +5,7 @@ use qrt_circuit::{
     Style, Type, When, Word,
 };
 
-/// Choices keyed by a seed.
+/// Random choices keyed by a seed.
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
@@ -27,7 +27,7 @@ impl Dice {
     }
 }
 
-/// A program of operations of one's choice, on operands of chance.
+/// A program of chosen operations on random operands.
 pub(crate) struct Maker {
     pub(crate) dice: Dice,
     pub(crate) program: Program,
@@ -38,7 +38,8 @@ pub(crate) struct Maker {
 pub(crate) const PARAMETERS: usize = 3;
 
 impl Maker {
-    /// With registers of up to `widest` bits, the first of them the path's index.
+    /// Creates a program with registers of up to `widest` bits. The first register is the path's
+    /// index, with `id` bits.
     pub(crate) fn new(seed: u64, id: u32, widest: u32) -> Self {
         let mut maker = Self {
             dice: Dice(seed),
@@ -91,7 +92,7 @@ impl Maker {
     }
 
     fn old(&mut self) -> RegisterId {
-        // The latest more often.
+        // Later registers are chosen more often.
         let all = self.program.registers.len() as u32;
         let back = if self.dice.coin() { all.min(6) } else { all };
         RegisterId(all - 1 - self.dice.below(back))
@@ -142,7 +143,7 @@ impl Maker {
         }
     }
 
-    /// Operation `kind` of 19.
+    /// Adds an operation of kind `kind`, of 19 kinds.
     pub(crate) fn op(&mut self, kind: u32) {
         let style = Style::OutOfPlace;
         let scratch = self.register(1, false);
@@ -291,7 +292,7 @@ impl Maker {
                     scratch,
                 }
             }
-            // In place: of a copy of its own, so that no operand is changed.
+            // An operation in place changes a copy of its own, so that no operand changes.
             14..=16 => {
                 let a = self.operand();
                 let bit = self.bit();
@@ -313,7 +314,7 @@ impl Maker {
                     target,
                 };
                 if kind == 16 {
-                    // Undone, and done again.
+                    // Compute, undo, and compute again.
                     self.push(op.clone());
                     self.push(op.clone());
                     let last = self.program.instructions.len() - 1;
@@ -339,10 +340,10 @@ impl Maker {
     }
 }
 
-/// Operations that [`Maker::op`] knows.
+/// Number of the kinds of operations that [`Maker::op`] knows.
 pub(crate) const KINDS: u32 = 19;
 
-/// Contents of `width` bits that are likely to matter: any, and those near the ends.
+/// Contents of `width` bits that are likely to matter: any contents, and contents near the ends.
 pub(crate) fn contents_of(dice: &mut Dice, width: u32, many: usize) -> Vec<u64> {
     let any = |dice: &mut Dice| match dice.below(4) {
         0 => u64::from(dice.below(3)),

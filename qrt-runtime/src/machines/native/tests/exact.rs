@@ -1,10 +1,10 @@
-//! Quotients and roots, where floating-point numbers stand in for integers.
+//! Tests of quotients and roots, which floating-point numbers compute in place of integers.
 
 use super::super::{Integers, Vectors};
 use super::every_set;
 use super::lanes::{Lanes, chance, samples};
 
-/// How many of a kind.
+/// Number of samples of a kind.
 const MANY: usize = if cfg!(miri) { 40 } else { 20_000 };
 
 fn double_quotients_are_floors<V: Vectors>(v: Lanes<V>) {
@@ -38,7 +38,7 @@ fn quotients_of_63_bits_are_floors() {
     every_set!(quotients_are_floors);
 }
 
-/// The floor, or one more where the quotient is rounded to the next integer.
+/// Checks that quotients are the floor, or one more where they are rounded to the next integer.
 fn single_quotients_are_near<V: Vectors>(v: Lanes<V>) {
     let mut state = 3;
     for up in (0..60).step_by(if cfg!(miri) { 29 } else { 1 }) {
@@ -56,7 +56,7 @@ fn single_quotients_are_near<V: Vectors>(v: Lanes<V>) {
         let pairs: Vec<_> = pairs.filter(|(a, b)| exact(*a, *b) < 1 << 24).collect();
         let excess = |a: V::Longs, b: V::Longs| {
             let near = v.0.quotient_single(v.0.narrow(a), v.0.narrow(b), up);
-            // The remainder's sign says which; see `qrt!`'s code.
+            // The remainder's sign distinguishes the two, as in the code that `qrt!` writes.
             let near = v.0.widen(near);
             let product = near.mul(b);
             let beyond = a.left(up).sub(product).less(v.0.longs(0));

@@ -8,12 +8,12 @@ use std::ops::RangeInclusive;
 pub(super) struct Lanes<V>(pub(super) V);
 
 impl<V: Vectors> Lanes<V> {
-    /// 1 where the truth holds, 0 elsewhere.
+    /// 1 where `truths` is true, 0 elsewhere.
     pub(super) fn digit(self, truths: V::Truths) -> V::Ints {
         self.0.ints(1).choose(truths, self.0.ints(0))
     }
 
-    /// Numbers in their lanes, zeros in those that are left.
+    /// Loads `numbers` into the first lanes, and zeros into the others.
     fn load(self, numbers: impl Iterator<Item = i64>) -> V::Longs {
         let mut lanes = [0; 16];
         for (lane, number) in lanes.iter_mut().zip(numbers) {
@@ -73,7 +73,7 @@ impl<V: Vectors> Lanes<V> {
     }
 }
 
-/// The next number of chance.
+/// Returns the next pseudo-random number.
 pub(super) fn chance(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mut z = *state;
@@ -82,8 +82,8 @@ pub(super) fn chance(state: &mut u64) -> u64 {
     z ^ z >> 31
 }
 
-/// Pairs of numbers that are likely to matter: those next to powers of two and to the ends, with
-/// each other, and some of every size.
+/// Pairs of numbers that are likely to matter: all pairs of numbers next to powers of two and to
+/// the ends of the ranges, and some pairs of numbers of every size.
 pub(super) fn samples(a: RangeInclusive<i64>, b: RangeInclusive<i64>) -> Vec<(i64, i64)> {
     let edges = |range: &RangeInclusive<i64>| {
         let powers = (0..63).step_by(if cfg!(miri) { 31 } else { 5 });
@@ -100,7 +100,7 @@ pub(super) fn samples(a: RangeInclusive<i64>, b: RangeInclusive<i64>) -> Vec<(i6
     let mut any = |range: &RangeInclusive<i64>| {
         let size = chance(&mut state) % 64;
         let number = chance(&mut state).cast_signed() >> size;
-        // The lowest 32 bits, if that is what the range holds.
+        // The lowest 32 bits, for a range of 32-bit numbers.
         if range.contains(&number) {
             number
         } else {

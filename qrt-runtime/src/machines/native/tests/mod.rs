@@ -197,7 +197,7 @@ fn look_up<V: Vectors>(
     v.ints1(&indices, |a| v.0.table16(first16, a), |a| entry(a & 15));
     v.ints1(&indices, |a| v.0.table32(first32, a), |a| entry(a & 31));
     v.ints1(&indices, |a| v.0.table(table, a), entry);
-    // Of any number the lowest bits count: nothing beyond a table is read.
+    // Only the lowest bits of an index count: no read is outside of a table.
     let any = samples(INTS, INTS);
     v.ints1(&any, |a| v.0.table(table, a), |a| entry(a & 255));
     let short: &[i32; 64] = table.first_chunk().unwrap();

@@ -3,13 +3,13 @@
 use num_complex::Complex;
 use pulp::{Simd, WithSimd, bytemuck};
 
-/// Qubits below this one are exchanged within vectors.
+/// Qubits below this one are within vectors: their amplitudes are exchanged there.
 const LOW: u32 = 3;
 
-/// What is done to amplitudes; indices are those of memory.
+/// An operation on amplitudes; indices are those of memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::machines::statevector) enum Kernel {
-    /// Hadamards on all qubits of `mask`, and a factor in all.
+    /// Hadamards on all qubits of `mask`, with one factor for all.
     Hadamards { mask: usize, scale: f64 },
     /// A real matrix on one qubit.
     Rotate { target: u32, matrix: [[f64; 2]; 2] },
@@ -19,7 +19,7 @@ pub(in crate::machines::statevector) enum Kernel {
         mask: usize,
         value: usize,
     },
-    /// A factor where the index agrees with `value` on `mask`.
+    /// Multiplies by a factor where the index agrees with `value` on `mask`.
     Phase {
         factor: Complex<f64>,
         mask: usize,
@@ -28,7 +28,7 @@ pub(in crate::machines::statevector) enum Kernel {
 }
 
 impl Kernel {
-    /// Qubits whose amplitudes it mixes or exchanges, as a mask.
+    /// Qubits whose amplitudes the kernel mixes or exchanges, as a mask.
     pub(super) fn targets(&self) -> usize {
         match *self {
             Self::Hadamards { mask, .. } => mask,
@@ -38,7 +38,8 @@ impl Kernel {
     }
 }
 
-/// Runs steps on a chunk whose first amplitude has index `base`; their targets lie within it.
+/// Runs steps on a chunk whose first amplitude has index `base`. The targets of the steps lie
+/// within it.
 pub(in crate::machines::statevector) struct OnChunk<'a> {
     pub(in crate::machines::statevector) steps: &'a [Kernel],
     pub(in crate::machines::statevector) chunk: &'a mut [Complex<f64>],
@@ -52,7 +53,7 @@ impl WithSimd for OnChunk<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let within = self.chunk.len() - 1;
         let one = Complex::new(1.0, 0.0);
-        // Factors of all amplitudes: they may come last.
+        // The product of the factors of the whole chunk, which is applied last.
         let mut all = one;
         for step in self.steps {
             match *step {
@@ -103,8 +104,8 @@ fn multiply(amplitudes: &mut [Complex<f64>], factor: Complex<f64>) {
     }
 }
 
-/// Calls `each` for the first index of every run of indices that agree with `value` on `mask`, all
-/// of which are as long as the lowest bit of `mask`.
+/// Calls `each` for the first index of every run of indices that agree with `value` on `mask`. The
+/// length of every run is the lowest bit of `mask`.
 #[inline(always)]
 pub(super) fn runs(len: usize, mask: usize, value: usize, mut each: impl FnMut(usize)) {
     let run = mask & mask.wrapping_neg();
@@ -177,8 +178,8 @@ impl WithSimd for Butterfly<'_> {
     }
 }
 
-/// Unnormalised Hadamards, times `scale`: a fast Walsh-Hadamard transform over the qubits of
-/// `mask`. `data` are real and imaginary parts in turn, of at least 8 amplitudes.
+/// Hadamards without normalization, times `scale`: a fast Walsh-Hadamard transform over the qubits
+/// of `mask`. `data` are real and imaginary parts in turn, of at least 8 amplitudes.
 #[inline(always)]
 fn hadamards<S: Simd>(simd: S, data: &mut [f64], mask: usize, scale: f64) {
     let mut high = mask >> LOW << LOW;
@@ -242,7 +243,8 @@ fn within<const MASK: usize>(blocks: &mut [[f64; 2 << LOW]], scale: f64) {
             v = v.map(|part| part * scale);
         }
         *block = v;
-        // Vectors across blocks would be gathered and scattered, at twice the time.
+        // Without this barrier, the compiler gathers and scatters vectors across blocks, at twice
+        // the time.
         std::hint::black_box(&mut *block);
     }
 }
@@ -259,7 +261,7 @@ fn pairs<S: Simd>(simd: S, a: &mut [f64], b: &mut [f64], scale: f64) {
     }
 }
 
-/// Two Hadamards at once, on halves that are so far apart, the nearer first.
+/// Two Hadamards at once, on halves that are `near` and `far` numbers apart, the nearer first.
 #[inline(always)]
 fn fours<S: Simd>(simd: S, data: &mut [f64], [near, far]: [usize; 2], scale: f64) {
     for block in data.chunks_exact_mut(2 * far) {

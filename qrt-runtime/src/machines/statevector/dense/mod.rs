@@ -17,32 +17,33 @@ use qrt_circuit::Qubit;
 use qrt_circuit::quantum::QuantumGate;
 use rayon::prelude::*;
 
-/// Most qubits: 1 GiB.
+/// Largest number of qubits: 1 GiB of amplitudes.
 const MOST_QUBITS: u32 = 26;
 
-/// A chunk's qubits, at least and at most: 16 KiB, which the nearest cache holds, and 512 KiB,
-/// which the next one does.
+/// Smallest and largest number of a chunk's qubits: 16 KiB, which the nearest cache holds, and 512
+/// KiB, which the next cache holds.
 const CHUNK: [u32; 2] = [10, 15];
 
-/// Most gates that wait.
+/// Largest number of gates that wait.
 const WAITING: usize = 4096;
 
 /// The dense machine: a state vector of up to 26 qubits, on all cores.
 ///
-/// Every gate is executed on every amplitude that it concerns. What is saved is memory traffic and
+/// The machine executes every gate on every amplitude that it concerns. It saves memory traffic and
 /// multiplications by one:
 ///
-/// * Gates wait until some thousands have come, or someone looks. A run of gates whose targets lie
-///   within a *chunk* of 2^10 to 2^15 amplitudes is executed chunk by chunk, all gates on one chunk
-///   before the next; controls and phases may be anywhere. Only a gate with a target above goes
-///   through memory alone.
+/// * Gates wait until there are some thousands, or until a result is read. A run of gates whose
+///   targets lie within a *chunk* of 2^10 to 2^15 amplitudes is executed chunk by chunk, all gates
+///   on one chunk before the next; controls and phases may be on any qubits. Only a gate with a
+///   target above goes through memory alone.
 /// * Adjacent Hadamards on different qubits are one fast Walsh-Hadamard transform: their additions,
-///   two levels a pass. Their factors `1/sqrt(2)` are multiplied by twos.
-/// * An X renames indices: a mask that later gates are read through.
-/// * A controlled gate touches the amplitudes where its controls hold, and a phase those that it
-///   changes; phases that concern a whole chunk are multiplied first.
+///   two levels per pass. Their factors `1/sqrt(2)` are applied in pairs.
+/// * An X renames indices: it changes a mask, with which the machine reads the indices of later
+///   gates.
+/// * A controlled gate touches only the amplitudes where its controls are 1, and a phase only those
+///   that it changes. Phases of a whole chunk are first multiplied with each other.
 ///
-/// The same bytes come out whatever the number of threads and the instruction set.
+/// The results are the same bytes for any number of threads and any instruction set.
 ///
 /// ```
 /// use qrt_circuit::quantum::QuantumGate::{Cx, H};
@@ -67,10 +68,10 @@ impl Dense {
     /// The most qubits that a dense state vector may have.
     pub const MOST_QUBITS: u32 = MOST_QUBITS;
 
-    /// The basis state in which all qubits are zero.
+    /// Creates the basis state in which all qubits are zero.
     ///
     /// # Errors
-    /// More than [`Dense::MOST_QUBITS`] qubits, or no memory.
+    /// If there are more than [`Dense::MOST_QUBITS`] qubits, or there is not enough memory.
     pub fn new(qubits: u32) -> Result<Self, StateVectorError> {
         if qubits > MOST_QUBITS {
             return Err(StateVectorError::TooManyQubits {
@@ -78,7 +79,7 @@ impl Dense {
                 most: MOST_QUBITS,
             });
         }
-        // Kernels take eight at a time.
+        // Kernels take eight amplitudes at a time.
         let mut amplitudes = filled(Complex::new(0.0, 0.0), 1 << qubits.max(3))?;
         amplitudes[0] = Complex::new(1.0, 0.0);
         Ok(Self {
@@ -89,7 +90,7 @@ impl Dense {
         })
     }
 
-    /// With another instruction set.
+    /// Sets the instruction set.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions;
         self
@@ -136,7 +137,7 @@ impl Dense {
         }
     }
 
-    /// A step with a target beyond chunks.
+    /// Executes a step with a target beyond chunks.
     fn run_far(&mut self, step: Kernel) {
         let set = self.instructions;
         match step {
@@ -193,8 +194,8 @@ impl Dense {
         }
     }
 
-    /// Calls `each` for equal chunks of the two halves that a qubit beyond chunks tells apart, and
-    /// the index of the first one's first amplitude.
+    /// Calls `each` for equal chunks of the two halves that a qubit beyond chunks distinguishes,
+    /// with the index of the first chunk's first amplitude.
     fn halves(
         &mut self,
         target: u32,
@@ -212,8 +213,8 @@ impl Dense {
         });
     }
 
-    /// Sums the squares of amplitudes by what `place` says of an index; the order of the sum is
-    /// that of indices.
+    /// Sums the squares of amplitudes by the value of `place` for their index. The sum is in the
+    /// order of memory.
     fn sums(&mut self, places: usize, place: impl Fn(usize) -> usize) -> Vec<f64> {
         self.run();
         let (frame, scale) = (self.plan.frame, self.plan.scale());

@@ -8,13 +8,13 @@ use qrt_circuit::Qubit;
 use qrt_circuit::quantum::{QuantumGate, Turns};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Steps that wait, and what is true of memory once they have run.
+/// Steps that wait, and the difference between memory and the state after they have run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
     steps: Vec<Kernel>,
-    /// Where the index of memory and that of the state differ: Xs.
+    /// The bits in which an index of memory and that of the state differ, because of Xs.
     pub(super) frame: usize,
-    /// Whether there is a factor `1/sqrt(2)` that memory lacks.
+    /// True if memory lacks a factor `1/sqrt(2)`.
     odd: bool,
 }
 
@@ -23,12 +23,13 @@ impl Plan {
         self.steps.len()
     }
 
-    /// What memory must be multiplied by.
+    /// The factor by which memory must be multiplied.
     pub(super) fn scale(&self) -> f64 {
         if self.odd { FRAC_1_SQRT_2 } else { 1.0 }
     }
 
-    /// All steps that wait. A Hadamard's factor of `1/sqrt(2)` is kept back until there are two.
+    /// Takes all steps that wait. A Hadamard's factor of `1/sqrt(2)` is kept back until there are
+    /// two.
     pub(super) fn take(&mut self) -> Vec<Kernel> {
         let mut steps = std::mem::take(&mut self.steps);
         for step in &mut steps {
@@ -41,7 +42,7 @@ impl Plan {
         steps
     }
 
-    /// Adds a gate on a machine of so many qubits.
+    /// Adds a gate on a machine of `qubits` qubits.
     pub(super) fn gate(
         &mut self,
         gate: QuantumGate<'_>,
@@ -71,7 +72,7 @@ impl Plan {
                 }
                 let matrix = rotation(angle);
                 let bit = 1 << target;
-                // After an X, its columns are exchanged.
+                // After an X on the target, the columns of the matrix are exchanged.
                 let matrix = if self.frame & bit == 0 {
                     matrix
                 } else {
@@ -107,7 +108,7 @@ impl Plan {
         });
     }
 
-    /// H X = Z H: an X that waits becomes a Z.
+    /// Adds a Hadamard. H X = Z H: an X that waits becomes a Z.
     fn hadamard(&mut self, target: Qubit) {
         let bit = 1 << target;
         let flipped = self.frame & bit != 0;

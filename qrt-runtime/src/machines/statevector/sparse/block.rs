@@ -5,26 +5,27 @@ use num_complex::Complex;
 use pulp::{Simd, WithSimd};
 use qrt_circuit::Qubit;
 
-/// States of a block.
+/// Number of states of a block.
 pub(super) const STATES: usize = 2048;
 
-/// Words of a row.
+/// Number of words of a row.
 pub(super) const WORDS: usize = STATES / 64;
 
 /// A qubit of all states of a block, a bit each.
 pub(super) type Row = [u64; WORDS];
 
-/// A gate that no two states are needed for.
+/// A gate that does not mix states.
 #[derive(Clone, Debug)]
 pub(super) enum Local {
     X(Qubit),
     Cx(Qubit, Qubit),
     Ccx(Qubit, Qubit, Qubit),
-    /// A factor where all of these hold.
+    /// A factor where all of these qubits are 1.
     Phase(Complex<f64>, Box<[Qubit]>),
 }
 
-/// Up to [`STATES`] states. Lanes beyond the last are no states, whatever their rows hold.
+/// Up to [`STATES`] states. The lanes after the last state are not states, whatever their rows
+/// hold.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     /// By qubit: its bit in every state.
@@ -51,7 +52,7 @@ impl Block {
         }
     }
 
-    /// What a register of up to 64 qubits holds, state by state.
+    /// Sets `values` to the contents of a register of up to 64 qubits, state by state.
     pub(super) fn values(&self, register: &[Qubit], values: &mut [u64]) {
         for (word, values) in values.chunks_mut(64).enumerate() {
             let mut square = [0; 64];
@@ -63,7 +64,7 @@ impl Block {
         }
     }
 
-    /// Whether a qubit holds 0 in every state, and whether it holds 1 in every state.
+    /// Returns whether a qubit is 0 in every state, and whether it is 1 in every state.
     pub(super) fn constant(&self, qubit: usize) -> [bool; 2] {
         let (mut ones, mut zeros) = (0, 0);
         for (word, bits) in self.rows[qubit].iter().enumerate() {
@@ -74,7 +75,7 @@ impl Block {
         [ones == 0, zeros == 0]
     }
 
-    /// The sum of the squares of amplitudes of states in which one of these qubits holds.
+    /// The sum of the squares of amplitudes of the states in which one of `qubits` is 1.
     pub(super) fn excited(&self, qubits: &[Qubit]) -> f64 {
         let mut sum = 0.0;
         for word in 0..WORDS {
@@ -135,7 +136,7 @@ impl WithSimd for RunBlock<'_> {
     }
 }
 
-/// Multiplies the amplitudes of these lanes.
+/// Multiplies the amplitudes of `lanes` by `factor`.
 fn multiply(amplitudes: &mut [Complex<f64>], lanes: &Row, factor: Complex<f64>) {
     let sign = factor == Complex::new(-1.0, 0.0);
     for (amplitudes, &lanes) in amplitudes.chunks_mut(64).zip(lanes) {

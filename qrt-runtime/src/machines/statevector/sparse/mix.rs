@@ -10,21 +10,21 @@ use qrt_circuit::Qubit;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What states are told apart by.
+/// Keys that distinguish states.
 struct Keys {
-    /// The qubits that are not the same in all states, mixed ones apart.
+    /// The qubits that are not the same in all states, except the mixed ones.
     live: Vec<Qubit>,
-    /// Words that their bits take.
+    /// Number of words of a key.
     words: usize,
-    /// State by state: its words.
+    /// State by state: the words of its key.
     all: Vec<u64>,
-    /// State by state: what the mixed qubits hold.
+    /// State by state: the content of the mixed qubits.
     subs: Vec<u64>,
 }
 
-/// States that differ in the mixed qubits alone.
+/// States that differ only in the mixed qubits.
 struct Groups {
-    /// Group by group: its key's words.
+    /// Group by group: the words of its key.
     keys: Vec<u64>,
     /// State by state: its group.
     of: Vec<usize>,
@@ -32,8 +32,8 @@ struct Groups {
 }
 
 impl Sparse {
-    /// Applies `step` to `mixed` qubits, which are its qubits 0, 1, ..., and drops what is too
-    /// small.
+    /// Applies `step` to the qubits `mixed`, which are its qubits 0, 1, ..., and drops amplitudes
+    /// that are too small.
     pub(super) fn mix(&mut self, mixed: &[Qubit], step: Kernel) -> Result<(), StateVectorError> {
         self.run_local();
         let keys = self.keys(mixed)?;
@@ -46,7 +46,7 @@ impl Sparse {
                 most: self.most,
             });
         }
-        // Kernels take eight at a time.
+        // Kernels take eight amplitudes at a time.
         let size = 1 << bits.max(3);
         let zero = Complex::new(0.0, 0.0);
         let mut dense = filled(zero, groups.count * size)?;
@@ -138,14 +138,14 @@ impl Sparse {
     }
 }
 
-/// Groups in the order in which states first show them.
+/// Creates the groups, in the order in which states first show them.
 fn grouped(keys: &Keys) -> Result<Groups, StateVectorError> {
     let mut of = filled(0, keys.subs.len())?;
     let mut found: HashMap<&[u64], usize> = HashMap::new();
     let mut all = Vec::new();
     let mut last: Option<(&[u64], usize)> = None;
     for (key, of) in keys.all.chunks_exact(keys.words).zip(&mut of) {
-        // Neighbours mostly are of one group.
+        // Neighbouring states are mostly of one group.
         *of = match last {
             Some((known, group)) if known == key => group,
             _ => {
@@ -165,7 +165,7 @@ fn grouped(keys: &Keys) -> Result<Groups, StateVectorError> {
     })
 }
 
-/// Rows of the states at these places of the groups' amplitudes.
+/// Rows of the states at `places` among the groups' amplitudes.
 fn rows(
     template: &[Row],
     keys: &Keys,

@@ -14,29 +14,30 @@ use qrt_circuit::Qubit;
 use qrt_circuit::quantum::QuantumGate;
 use rayon::prelude::*;
 
-/// Most gates that wait.
+/// Largest number of gates that wait.
 const WAITING: usize = 1 << 16;
 
 /// Most qubits of a register whose distribution is listed.
 const LISTED: u32 = 26;
 
-/// Most Hadamards executed together.
+/// Largest number of Hadamards that are executed together.
 const TOGETHER: usize = 16;
 
 /// The sparse machine: basis states with amplitude, of any number of qubits, on all cores.
 ///
-/// States stand in blocks of 2048, bit-sliced: a row of bits for each qubit. X, CNOT and Toffoli
-/// change rows, of all states at once, and phases change amplitudes; these are executed one by one,
-/// block after block. Hadamards and rotations mix states: those that differ in the mixed qubits
-/// alone are gathered, transformed together (adjacent Hadamards on different qubits as one fast
-/// Walsh-Hadamard transform), and put back in the order of their groups. What distinguishes groups
-/// are the qubits that are not the same in all states, so that ancillas at zero cost nothing.
+/// Blocks hold 2048 states each, bit-sliced: a row of bits for each qubit. X, CNOT and Toffoli
+/// change rows, of all states at once, and phases change amplitudes. The machine executes these
+/// gates one by one, block after block. Hadamards and rotations mix states: the machine gathers the
+/// states that differ only in the mixed qubits, transforms them together (adjacent Hadamards on
+/// different qubits as one fast Walsh-Hadamard transform), and puts them back in the order of their
+/// groups. The qubits that are not the same in all states distinguish groups, so that ancillas at
+/// zero cost nothing.
 ///
-/// A state is dropped when its amplitude is at most [`Sparse::ROUNDING`]: what rounding leaves
-/// of amplitudes that cancel is below it. The dropped states' probability is summed up in
-/// [`Sparse::dropped`]; nothing is renormalised.
+/// The machine drops a state when its amplitude is at most [`Sparse::ROUNDING`]: the rounding
+/// errors of amplitudes that cancel are below it. [`Sparse::dropped`] is the sum of the
+/// probabilities of dropped states; nothing is renormalised.
 ///
-/// The same bits come out whatever the number of threads and the instruction set.
+/// The results are the same bits for any number of threads and any instruction set.
 ///
 /// ```
 /// use qrt_circuit::quantum::QuantumGate::{Cx, H};
@@ -60,7 +61,7 @@ pub struct Sparse {
     waiting: Vec<Local>,
     /// Adjacent Hadamards that wait, after everything in `waiting`.
     hadamards: Vec<Qubit>,
-    /// Whether there is a factor `1/sqrt(2)` that the amplitudes lack.
+    /// True if the amplitudes lack a factor `1/sqrt(2)`.
     odd: bool,
     pub(super) bound: f64,
     dropped: f64,
@@ -70,15 +71,15 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// Amplitudes up to this are dropped: below what rounding leaves
-    /// (2^-53) of amplitudes that are states' of 2^-20 and above.
+    /// Largest amplitude that is dropped: below the rounding error (2^-53) of states with
+    /// amplitudes of 2^-20 and above.
     pub const ROUNDING: f64 = 1e-16;
 
-    /// States allowed. One takes a bit for each qubit and 16 bytes; while states are mixed, twice that
-    /// and some 60 bytes more.
+    /// Largest number of states. A state takes a bit for each qubit and 16 bytes; while states are
+    /// mixed, it takes twice that and some 60 bytes more.
     pub const MOST_STATES: u64 = 1 << 24;
 
-    /// The basis state in which all qubits are zero.
+    /// Creates the basis state in which all qubits are zero.
     pub fn new(qubits: u32) -> Self {
         Self {
             qubits,
@@ -95,22 +96,22 @@ impl Sparse {
         }
     }
 
-    /// With another instruction set.
+    /// Sets the instruction set.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions;
         self
     }
 
-    /// States that carry amplitude.
+    /// Number of states that carry amplitude.
     ///
     /// # Errors
-    /// As [`StateVector::gate`], of gates that waited.
+    /// As [`StateVector::gate`], for gates that waited.
     pub fn states(&mut self) -> Result<u64, StateVectorError> {
         self.run()?;
         Ok(self.states as u64)
     }
 
-    /// The most states that have carried amplitude.
+    /// Largest number of states that have carried amplitude.
     pub fn most_states(&self) -> u64 {
         self.peak
     }
@@ -120,10 +121,11 @@ impl Sparse {
         self.dropped
     }
 
-    /// Every state with amplitude: what up to 64 qubits hold in it, bit 0 first, and its amplitude.
+    /// Returns every state with amplitude: its content of up to 64 qubits, bit 0 first, and its
+    /// amplitude.
     ///
     /// # Errors
-    /// A qubit that is none, or more than 64.
+    /// If a qubit does not exist, or there are more than 64.
     pub fn amplitudes(
         &mut self,
         register: &[Qubit],
@@ -135,7 +137,7 @@ impl Sparse {
         Ok(values.into_iter().zip(amplitudes).collect())
     }
 
-    /// What a register holds, state by state.
+    /// Returns the contents of a register, state by state.
     fn values(&mut self, register: &[Qubit]) -> Result<Vec<u64>, StateVectorError> {
         check_qubits(register, self.qubits)?;
         if register.len() > 64 {
@@ -193,7 +195,7 @@ impl Sparse {
         self.waiting.clear();
     }
 
-    /// A step that waits for no Hadamard to come.
+    /// Adds a step that does not mix states. Hadamards that wait run first.
     fn wait(&mut self, step: Local) -> Result<(), StateVectorError> {
         if !self.hadamards.is_empty() {
             self.run()?;
@@ -285,7 +287,8 @@ impl StateVector for Sparse {
                 0.0
             };
         }
-        // States that were not read go as all do that have no amplitude.
+        // Mixing no qubits drops the states that were not read, because they have no amplitude any
+        // more.
         let none = Kernel::Hadamards {
             mask: 0,
             scale: 1.0,

@@ -1,4 +1,4 @@
-//! Four models of counting, and the closed form.
+//! Tests that four models of counting agree with the closed form.
 
 use super::*;
 use crate::counting::PhaseDistribution;
@@ -25,7 +25,7 @@ fn agree(a: &[f64], b: &[f64], what: &str) {
     assert!(off < 1e-12, "{what}: {off:e}");
 }
 
-/// A random truth table with as many good indices.
+/// A random truth table with `good` good indices.
 fn table(bits: u32, good: usize, seed: u64) -> Vec<bool> {
     let mut stream = Stream::new(seed, 0, 0, 0);
     let mut table: Vec<bool> = (0..1 << bits).map(|id| id < good).collect();
@@ -82,8 +82,8 @@ fn all_models_agree() {
     }
 }
 
-/// Larger ones, for the models that have no ancillas; indices that are no power of two for the
-/// plane.
+/// Larger sizes, for the models that have no ancillas; for the plane, numbers of indices that are
+/// not powers of two.
 #[test]
 fn large_models_agree() {
     for (bits, phase_bits) in [(10, 10), (3, 14), (13, 4), (11, 7)] {
@@ -117,7 +117,7 @@ fn large_models_agree() {
     }
 }
 
-/// With O_0 turning the sign of `|0...0>` alone, the circuit counts the others: N - S.
+/// If O_0 turns the sign of `|0...0>` alone, the circuit counts the other indices: N - S.
 #[test]
 fn the_sign_of_the_reflection_matters() {
     let (bits, phase_bits, good) = (5, 5, 9);
@@ -131,7 +131,8 @@ fn the_sign_of_the_reflection_matters() {
         let mut left_out = 0;
         counting
             .part(Part::Counting, &mut |gate| {
-                // What makes O_0's sign right is a Z on a counting qubit, and nothing else is.
+                // A Z on a counting qubit corrects O_0's sign, and no other gate is a Z on a
+                // counting qubit.
                 if let QuantumGate::Phase { on: [qubit], .. } = gate
                     && counting.phase_register().contains(qubit)
                 {
@@ -154,7 +155,7 @@ fn the_sign_of_the_reflection_matters() {
     }
 }
 
-/// An oracle that leaves garbage in an ancilla is found out, after the first query.
+/// An oracle that leaves garbage in an ancilla is detected: after the first query, or at the end.
 #[test]
 fn what_an_oracle_leaves_behind_is_found() {
     use qrt_circuit::{Circuit, Gate};

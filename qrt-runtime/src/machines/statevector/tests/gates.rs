@@ -1,4 +1,4 @@
-//! Gates against their matrices.
+//! Compares gates with their matrices.
 
 use super::Owned;
 use super::*;
@@ -43,7 +43,7 @@ fn own_matrix(gate: &Owned) -> (Vec<Qubit>, Matrix) {
     }
 }
 
-/// The gate on all qubits, by its definition: identity on the others.
+/// Applies the gate to all qubits, by its definition: identity on the others.
 fn apply(gate: &Owned, state: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let (qubits, matrix) = own_matrix(gate);
     let inside = |index: usize| {
@@ -76,7 +76,7 @@ fn gate(qubits: u32) -> impl Strategy<Value = Owned> {
     })
 }
 
-/// Any gates, runs of Hadamards among them.
+/// Random gates, with runs of Hadamards among them.
 fn circuit(qubits: u32, most: usize) -> impl Strategy<Value = Vec<Owned>> {
     let run = Just((0..qubits).collect::<Vec<Qubit>>()).prop_shuffle();
     let run = (run, 1..=qubits as usize)
@@ -157,7 +157,8 @@ proptest! {
     }
 }
 
-/// Beyond one chunk, all ways to execute a gate occur: targets and controls within and beyond.
+/// In a register larger than a chunk, all cases occur: targets and controls within a chunk and
+/// beyond.
 #[test]
 fn large_registers_are_like_small_ones() {
     let qubits = 18;
@@ -165,7 +166,7 @@ fn large_registers_are_like_small_ones() {
     let mut dense = Dense::new(qubits).unwrap();
     let mut sparse = Sparse::new(qubits);
     let mut pick = |most: u64| (stream.next_u64() % most) as u32;
-    // Few enough states for the sparse machine to be another way of doing it.
+    // Few enough states that the sparse machine computes them in another way.
     for round in 0..400 {
         let mut q: Vec<Qubit> = (0..qubits).collect();
         for place in 0..6 {
@@ -332,7 +333,8 @@ fn what_cannot_be_is_refused() {
     ));
 }
 
-/// A small angle's state is dropped where the bound says so, and its probability is accounted for.
+/// The state of a small angle is dropped if the bound says so, and its probability is accounted
+/// for.
 #[test]
 fn what_is_dropped_is_accounted_for() {
     let angle = 2e-3;
@@ -352,7 +354,7 @@ fn what_is_dropped_is_accounted_for() {
     assert_eq!(states, 1);
     assert!((dropped - 1e-3_f64.sin().powi(2)).abs() < 1e-20);
     assert!((norm + dropped - 1.0).abs() < 1e-15);
-    // Nothing is left to be measured.
+    // No state is left to be measured.
     let mut sparse = Sparse::new(1);
     sparse.bound = 1.0;
     sparse.gate(QuantumGate::H(0)).unwrap();

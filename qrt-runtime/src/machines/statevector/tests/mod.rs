@@ -1,4 +1,4 @@
-//! What machines of amplitudes promise.
+//! Tests of the machines that compute amplitudes.
 
 mod agreement;
 mod gates;

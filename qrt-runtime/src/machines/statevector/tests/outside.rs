@@ -1,4 +1,4 @@
-//! Small circuits, against what cirq makes of them: `benches/peers/amplitudes.py` wrote it.
+//! Compares small circuits with cirq's results, which `benches/peers/amplitudes.py` wrote.
 
 use super::Owned;
 use super::*;
