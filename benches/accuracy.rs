@@ -1,13 +1,13 @@
-//! Whether an asked accuracy is kept, and at what price.
+//! Checks that the planner keeps a requested accuracy, and measures its price.
 //!
-//! `cargo bench --bench accuracy` asks four scenes for three errors each, renders what the plan
-//! says on the circuit's numbers, and compares with 2^23 paths of another seed. It fails unless the
-//! asked fraction of channels is within the asked error, at no more than twice the queries of the
-//! best parameters that a sweep by hand finds: every register and number of repetitions, over any
-//! number of paths. Then it asks the Cornell box for an error of 1 % with its lamp sampled, and fails
-//! unless the best parameters by hand, which count the comparator whole, take 2.5 times fewer
-//! queries than without, and a plan, which counts it by strata and stops by itself, 6 times fewer. A
-//! name alone asks the scenes whose names hold it, `lamps` this.
+//! `cargo bench --bench accuracy` requests three errors for each of four scenes, renders each plan
+//! on the circuit's numbers, and compares with 2^23 paths of another seed. It fails unless the
+//! requested fraction of channels is within the requested error, at no more than twice the queries
+//! of the best parameters that a sweep by hand finds: every register and number of repetitions, over
+//! any number of paths. Then it requests an error of 1 % for the Cornell box with its lamp sampled,
+//! and fails unless the best parameters by hand, which count the comparator whole, take 2.5 times
+//! fewer queries than without, and a plan, which counts it by strata and stops by itself, 6 times
+//! fewer. A name alone selects the scenes whose names contain it; `lamps` selects the sampled lamp.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -38,20 +38,21 @@ const SCENES: [&str; 4] = [
 const ERRORS: [f64; 3] = [0.1, 0.03, 0.01];
 const CONFIDENCE: f64 = 0.95;
 const SIDE: u32 = 20;
-/// Paths of the truth, at least four times as many as of any picture, and its seed; the seed of the sweep's
-/// paths; those of pictures.
+/// Path bits of the reference means, at least four times the paths of any picture, and their seed.
 const TRUTH: (u32, u64) = (23, 77);
+/// Seed of the sweep's paths.
 const SEED: u64 = 1;
+/// Seeds of the pictures.
 const SEEDS: [u64; 3] = [1, 2, 3];
 /// Path bits of the sweep.
 const PATHS: [u32; 5] = [12, 14, 16, 18, 20];
-/// Pictures over which the sweep's fractions are averaged.
+/// Number of pictures over which the sweep's fractions are averaged.
 const DRAWS: u64 = 4;
-/// What the fraction of the first of them may lack for the others to be tried: more than three
-/// standard deviations of so many channels.
+/// Largest shortfall of the first picture's fraction with which the sweep tries the others: more than
+/// three standard deviations of the fraction.
 const LACK: f64 = 0.02;
 
-/// The scene of a file with these overrides, asked for an error.
+/// Loads the scene `name` with the overrides `sets`, and requests `error`.
 fn scene(name: &str, sets: &[&str], error: f64) -> ValidScene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
     let sets: Vec<String> = sets.iter().map(|&set| set.into()).collect();
@@ -78,14 +79,14 @@ fn scene(name: &str, sets: &[&str], error: f64) -> ValidScene {
     validate(scene, &Meshes::default()).unwrap()
 }
 
-/// Of `values`, the fraction that is within `error` of the truth.
+/// Returns the fraction of `values` within `error` of `truth`.
 fn share(values: &[[f64; 3]], truth: &[[f64; 3]], error: f64) -> f64 {
     let pairs = values.iter().flatten().zip(truth.iter().flatten());
     let within = pairs.filter(|(a, b)| (*a - *b).abs() <= error).count();
     within as f64 / (3 * truth.len()) as f64
 }
 
-/// The fewest queries a pixel with which counting over one of `means` keeps the error, and the
+/// Returns the fewest queries a pixel with which counting over one of `means` keeps the error, and the
 /// parameters; `bounds` are the scales of the pixels.
 fn by_hand(
     means: &[Means],
@@ -100,7 +101,7 @@ fn by_hand(
         .flat_map(|phase_bits| [1, 2, 3, 5, 7].map(|repetitions| [phase_bits, repetitions]))
         .collect();
     registers.sort_by_key(|[phase_bits, repetitions]| ((1 << phase_bits) - 1) * repetitions);
-    // Counting does not mend what too few paths have spoilt.
+    // Counting cannot repair the error of too few paths, so those are left out.
     let enough = |means: &Means| share(means, truth, error) >= CONFIDENCE - LACK;
     let means: Vec<(&Means, u32)> = means.iter().zip(PATHS).filter(|m| enough(m.0)).collect();
     for [phase_bits, repetitions] in registers {
@@ -113,7 +114,7 @@ fn by_hand(
         for &(means, bits) in &means {
             let (mut kept, mut spent) = (0.0, 0);
             for draw in 0..DRAWS {
-                // Not worth the rest.
+                // The first draw is too far off for the other draws to make up.
                 if draw == 1 && kept * (DRAWS as f64) < CONFIDENCE - LACK {
                     break;
                 }
@@ -221,7 +222,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(!fine))
 }
 
-/// The scene with enough paths for a truth.
+/// Returns the scene with enough paths for the reference means.
 fn wide(scene: &ValidScene) -> ValidScene {
     let mut parameters = scene.parameters();
     parameters.sampling.path_bits = TRUTH.0;
@@ -236,7 +237,7 @@ fn truth(wide: &ValidScene) -> Means {
         .remove(0)
 }
 
-/// Means over as many paths as the sweep tries, and the scales of the pixels.
+/// Returns the means over each number of paths of the sweep, and the scales of the pixels.
 fn paths(wide: &ValidScene) -> (Vec<Means>, Vec<[f64; 3]>) {
     let pixels = spread([SIDE; 2], u64::MAX);
     let classes = PixelClasses::new(wide);
@@ -250,7 +251,7 @@ fn paths(wide: &ValidScene) -> (Vec<Means>, Vec<[f64; 3]>) {
     (means, pixels.iter().map(scale).collect())
 }
 
-/// Renders by a plan: queries of a pixel, and the fraction of channels within the asked error.
+/// Renders by a plan; returns queries a pixel, and the fraction of channels within the requested error.
 fn counted(asked: &ValidScene, planned: &Plan, truth: &Means) -> (f64, f64) {
     let error = planned.figures.accuracy.error * radiance(truth);
     let (mut queries, mut within) = (0.0, 0.0);
@@ -269,8 +270,8 @@ fn counted(asked: &ValidScene, planned: &Plan, truth: &Means) -> (f64, f64) {
     (queries / pictures, within / pictures)
 }
 
-/// How many times fewer queries the Cornell box needs where its lamp is sampled than by hand where it
-/// is not: by hand, with the comparator counted whole and all channels alike, and by a plan.
+/// Least ratios of the queries for the Cornell box by hand without a sampled lamp to those with one: by
+/// hand, with the comparator counted whole and all channels alike, and by a plan.
 const LAMPS_PAY: [f64; 2] = [2.5, 6.0];
 
 fn lamps_pay() -> bool {

@@ -2,8 +2,8 @@
 //!
 //! `cargo bench --bench colour` renders scenes both ways with the default estimator, at the same
 //! queries a pixel in all, and prints the errors against the picture without counting noise: of the
-//! luminance, which one run has three times the queries for, and of the colour at that luminance,
-//! which it has from a few measured paths. Fails unless one run's luminance is the better one.
+//! luminance, for which one run has three times the queries, and of the colour at that luminance,
+//! which it takes from a few measured paths. Fails unless one run's luminance is the better one.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -15,12 +15,12 @@ use qrt_runtime::render::{Colour, Options, render};
 use std::path::Path;
 
 const SCENES: [&str; 3] = ["cornell-box", "floor-and-light", "velvet"];
-/// Queries of a run under one-run; a third of it by channel under three-runs.
+/// Bits of the phase registers whose queries a run may use.
 const BITS: [u32; 3] = [9, 11, 13];
 
 type Picture = Vec<[f64; 3]>;
 
-/// Root mean square errors over the mean luminance: of the luminance, and of the colours when both
+/// Returns root mean square errors over the mean luminance: of the luminance, and of the colours when both
 /// are scaled to the right luminance.
 fn errors(found: &Picture, truth: &Picture) -> [f64; 2] {
     let (mut brightness, mut hue, mut mean) = (0.0, 0.0, 0.0);
@@ -66,7 +66,7 @@ fn main() {
             .image
             .pixels;
         for bits in BITS {
-            // Three times the repetitions for the one run.
+            // One run repeats three times, so that both have the same queries.
             let three = picture(Estimator::AdaptiveBayes, Colour::ThreeRuns, bits, 1);
             let one = picture(Estimator::AdaptiveBayes, Colour::OneRun, bits, 3);
             let [y3, c3] = errors(&three.image.pixels, &truth);

@@ -1,8 +1,8 @@
-//! The price of counting: of a draw, of an estimate, and of a whole 64 x 64 picture's.
+//! Price of counting: of a draw, of an estimate, and of a whole 64 x 64 picture.
 //!
-//! Promises: a draw costs the same at T = 2^40 as at 2^8; counting noise for 64 x 64 pixels and
-//! three channels is put on in well under a second, at any register of 8 to 16 bits and up to
-//! eight repetitions.
+//! Promises: a draw costs the same at T = 2^40 as at 2^8; the counting noise of 64 x 64 pixels and
+//! three channels takes well under a second, at any register of 8 to 16 bits and up to eight
+//! repetitions.
 
 use std::hint::black_box;
 
@@ -56,7 +56,7 @@ fn estimates(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// 64 x 64 pixels of three channels, every one with another S, on one thread.
+/// Measures 64 x 64 pixels of three channels, each with another S, on one thread.
 fn pictures(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("picture 64x64x3");
     group.sample_size(10);

@@ -4,18 +4,18 @@
 //! qrt's real model and with Mitsuba's `path` integrator under each of its samplers, from few paths
 //! a pixel to many. Both sample lamps at every surface. The truth is the mean of 65,536 samples a
 //! pixel of Mitsuba's, rendered once and kept below `target`. An error is the root mean square over
-//! pixels, channels and seeds, as a fraction of the truth's mean; pixels that see a lamp, or are
-//! beside one that does, do not count, since there the lamp's edge would be all that is measured.
+//! pixels, channels and seeds, as a fraction of the truth's mean. Pixels that see a lamp, or are
+//! beside one that does, do not count, since there the lamp's edge would dominate the error.
 //! Seconds are the processor's, over all threads, of tracing alone: neither loading a scene nor
 //! compiling code counts, for either. `-- --quick` asks for an error of 3 % only, of fewer seeds.
 //!
-//! It prints what was measured and the seconds to errors of 3 % and 1 %, between the numbers of
+//! It prints the measurements and the seconds to errors of 3 % and 1 %, between the numbers of
 //! paths on logarithmic axes, and fails where a promise is broken: qrt's time relative to that of
 //! Mitsuba's best sampler, and relative to independent samples.
 //!
-//! Mitsuba is installed by `benches/peers/path_tracing.py`, where there is a `python3` that can. Its
-//! translation of scenes is held against the pictures in `tests/references` first. Where there is no
-//! Mitsuba, or only its scalar variant, no promise is checked, and the bench says so.
+//! `benches/peers/path_tracing.py` installs Mitsuba, where there is a `python3` that can. First the
+//! bench compares Mitsuba's pictures of exported scenes with those in `tests/references`. Without
+//! Mitsuba the bench fails; with its scalar variant alone it checks no promise, and says so.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -45,16 +45,16 @@ const SCENES: [&str; 2] = ["cornell-box", "knot"];
 const DEPTHS: &str = "[{ bits: [10, 10] }, { bits: [10, 10], light: [10, 10] }, \
                       { bits: [10, 10], light: [10, 10] }]";
 
-/// Errors, and qrt's seconds as a fraction of those of Mitsuba's best sampler that it promises.
+/// Errors, with the promised bound on qrt's seconds as a fraction of those of Mitsuba's best sampler.
 const ERRORS: [(f64, f64); 2] = [(0.03, 1.0), (0.01, 0.6)];
 
-/// What it promises at both, as a fraction of those of independent samples.
+/// Promised bound at both errors, as a fraction of the seconds of independent samples.
 const INDEPENDENT: f64 = 0.4;
 
 /// Numbers of paths, as powers of two.
 const PATH_BITS: std::ops::RangeInclusive<u32> = 4..=14;
 
-/// Paths of a pixel, over all seeds, that tell an error well enough.
+/// Paths of a pixel, over all seeds, that suffice to measure an error.
 const ENOUGH: u64 = 8192;
 
 fn main() -> ExitCode {
@@ -108,7 +108,7 @@ fn scene(name: &str) -> impl Fn(u32) -> ValidScene {
     }
 }
 
-/// qrt's errors and seconds, until the error is below `least`.
+/// Measures qrt's errors and seconds, until the error is below `least`.
 fn curve_of(scene: &dyn Fn(u32) -> ValidScene, truth: &Truth, least: f64, seeds: u64) -> Curve {
     let mut points: Vec<Point> = Vec::new();
     for path_bits in PATH_BITS {
@@ -128,7 +128,7 @@ fn curve_of(scene: &dyn Fn(u32) -> ValidScene, truth: &Truth, least: f64, seeds:
             error: (squares / runs as f64).max(0.0).sqrt() / truth.mean(),
             seconds,
         });
-        // A net's error does not fall evenly: twice below is below.
+        // A net's error does not fall evenly, so it counts as below only twice in a row.
         if matches!(points[..], [.., a, b] if a.error.max(b.error) < least) {
             break;
         }
@@ -139,7 +139,7 @@ fn curve_of(scene: &dyn Fn(u32) -> ValidScene, truth: &Truth, least: f64, seeds:
     }
 }
 
-/// The film, row by row, whose rows all cores share.
+/// Renders the film row by row; all cores share the rows.
 fn picture(real: &Real, width: u32, height: u32) -> Vec<[f64; 3]> {
     let paths = real.paths() as f64;
     let rows: Vec<Vec<[u32; 2]>> = (0..height)

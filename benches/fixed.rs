@@ -1,14 +1,14 @@
-//! How many paths a second the fixed machine traces, and the gates machine on the same scenes.
+//! Measures the throughput of the fixed machine, and of the gates machine on the same scenes.
 //!
 //! `cargo bench --bench fixed` prints, scene by scene, the operations of a path of all three
 //! channels and the gates of its circuit; paths a second of the fixed machine on one core and on
 //! all, and the nanoseconds that an operation takes a path; paths a second of the gates machine
-//! (compute, read, uncompute, look at every qubit; the flips are tried once a scene, not path by
-//! path, and are left out); and how many times as fast the fixed machine is on one core. Meshes
-//! have few triangles.
+//! (compute, read, uncompute, check every qubit; the flips are tested once a scene, not path by
+//! path, and are left out); and the ratio of the fixed machine's throughput to that on one core.
+//! Meshes have few triangles.
 //!
 //! It fails where a promise is broken: on the Cornell box the fixed machine is at least five times
-//! as fast as the gates machine. How fast it is by itself, `--bench gates` and `--bench tracing` ask.
+//! as fast as the gates machine. `--bench gates` and `--bench tracing` measure throughput by itself.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -35,14 +35,14 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Best of so many runs, each of a few milliseconds: noise only ever slows, and what waits for its
-/// turn shall not be counted.
+/// Number of runs, each of a few milliseconds, of which the best counts: noise only ever slows, and time
+/// in which another process runs must not count.
 const RUNS: usize = 40;
 
-/// How many times as fast as the gates machine.
+/// Promised ratio of the throughput to the gates machine's.
 const BAR: f64 = 5.0;
 
-/// Where the pixels stand, in a film of 32 columns.
+/// Positions of the pixels, in a film of 32 columns.
 const PIXELS: [[u32; 2]; 4] = [[9, 17], [16, 8], [12, 25], [22, 22]];
 
 const SETS: [&str; 3] = ["film.width=32", "film.height=32", "sampling.path_bits=12"];
@@ -74,7 +74,7 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// Prints what both machines do with a scene; how many times as fast the fixed one is.
+/// Prints the throughput of both machines on a scene; returns the ratio of the fixed one to the gates.
 fn compared(name: &str, scene: &ValidScene, cores: usize) -> f64 {
     let oracle = Oracle::rgb(scene, Options::default()).unwrap_or_else(|error| panic!("{error}"));
     let oracle = Arc::new(oracle);
@@ -83,7 +83,7 @@ fn compared(name: &str, scene: &ValidScene, cores: usize) -> f64 {
     let machine = Gates::new(&[&parts.compute, &parts.uncompute]).expect("gates of its own qubits");
     let ops = oracle.program.ops.len();
     let (mut one, mut all, mut gates) = (0.0_f64, 0.0_f64, 0.0_f64);
-    // In turn, so that what slows the machine slows all of them.
+    // The machines take turns, so that noise slows all of them alike.
     for _ in 0..RUNS {
         one = one.max(fixed_speed(&fixed, 1));
         gates = gates.max(gates_speed(&oracle, &parts, &machine));
@@ -101,7 +101,7 @@ fn compared(name: &str, scene: &ValidScene, cores: usize) -> f64 {
     one / gates
 }
 
-/// Paths a second of `threads` threads.
+/// Returns paths a second of `threads` threads.
 fn fixed_speed(machine: &OracleMachine, threads: usize) -> f64 {
     let started = Instant::now();
     std::thread::scope(|scope| {
@@ -119,7 +119,7 @@ fn fixed_speed(machine: &OracleMachine, threads: usize) -> f64 {
     paths as f64 / started.elapsed().as_secs_f64()
 }
 
-/// Paths a second of one thread.
+/// Returns paths a second of one thread.
 fn gates_speed(oracle: &Oracle, parts: &OracleCircuits, machine: &Gates) -> f64 {
     let outputs = &parts.compute.outputs;
     let (_, id) = outputs

@@ -1,27 +1,26 @@
-//! How fast the machines of the circuit are: gates on basis states, and operations on integers.
+//! Throughput of the machines of the circuit: gates on basis states, and operations on integers.
 //!
 //! `cargo bench --bench gates` prints lane-gates a second and core: gates times the states that
-//! each is executed on. The lists are what the compiler makes: a product of 16 bits and a
-//! comparison, out of place and in place, whose rows the nearest caches hold; and the Cornell box
+//! each is executed on. The circuits are those of the compiler: a product of 16 bits and a
+//! comparison, out of place and in place, whose rows fit in the nearest caches; and the Cornell box
 //! for all three channels, of more than half a million gates, under either strategy. Each is
-//! computed and uncomputed. Beside them stands what the processor's loads and stores allow a
-//! machine that executes one Toffoli after the other from the nearest cache, measured in the same
-//! run: sequences of gates that go through registers together exceed it. Then come nanoseconds an
+//! computed and uncomputed. Beside them it prints a limit, measured in the same run: the throughput
+//! that loads and stores allow a machine that executes one Toffoli after the other from the nearest
+//! cache. Sequences of gates that go through registers together exceed it. Then come nanoseconds an
 //! operation takes a lane on the fixed machine.
 //!
-//! The same of every example scene whose gates are held, under `keep`: rows of more qubits than caches
-//! hold. One core's seconds are the processor's, so that what others do at the same time counts less.
-//! Last the circuits whose gates are too many to be held, and are made anew each time that they run:
-//! a mesh whose planes are undone one by one, and the knot of 1,536 faces, as its scene has it; under `keep`
-//! its twelve million qubits leave memory for no more than 256 states.
+//! Next come all example scenes whose gates are held in memory, under `keep`: their rows have more
+//! qubits than caches hold. The seconds of one core are processor time, so that other processes count
+//! less. Last come circuits with too many gates to hold, which are generated again in each run: a mesh
+//! whose planes are uncomputed one by one, and the knot of 1,536 faces, as its scene has it; under
+//! `keep` its twelve million qubits leave memory for no more than 256 states.
 //!
 //! It fails where a promise is broken: 3e11 lane-gates a second and core with vectors of 256 bits
-//! or more on what caches hold, at least half the speed of the scoped box with rows of the same length on
-//! every scene under `keep`, half its speed on gates made anew for many states at a time, a hundredth of it
-//! where memory holds 256 states, and simple operations on numbers of up to 32 bits in an eighth of a
-//! nanosecond. Rows are shorter where there are very many: choosing what to execute is then shared by fewer
-//! states, and how much slower that is depends on the processor.
-//! So circuits are compared at one length.
+//! or more on circuits whose rows fit a cache, at least half the speed of the scoped box with rows of the same
+//! length on every scene under `keep`, half its speed on generated gates for many states at a time, a
+//! hundredth of it where memory holds 256 states, and simple operations on numbers of up to 32 bits in an
+//! eighth of a nanosecond. Circuits with very many qubits have shorter rows. Fewer states then share the
+//! cost of choosing a gate, and that cost depends on the processor, so circuits are compared at one length.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -57,24 +56,24 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-/// Best of so many runs: the machine's noise only ever slows.
+/// Number of runs of which the best counts: the machine's noise only ever slows.
 const RUNS: usize = 9;
 
-/// Seconds that are measured together, at least.
+/// Least seconds that are measured together.
 const LEAST: f64 = 0.1;
 
-/// Lane-gates a second and core, and those aimed at.
+/// Lane-gates a second and core: promised, and aimed at.
 const BAR: f64 = 3e11;
 const AIM: f64 = 6e11;
 
-/// Speed of any scene's circuit under `keep`, by that of the box under `scoped` on rows of the same length.
+/// Throughput of any scene's circuit under `keep`, relative to the box under `scoped` with rows of the same length.
 const LARGE: f64 = 0.5;
 
-/// Speed of gates that are made anew, by the same.
+/// Throughput of gates that are generated again, relative to the same.
 const ANEW: f64 = 0.5;
 
-/// That of the knot's under `keep`, which run on 256 states at a time: each gate takes longer to make than to
-/// run, and longer rows would not fit into a gigabyte.
+/// Throughput of the knot under `keep`, which runs on 256 states at a time: each gate takes longer to
+/// generate than to run, and longer rows would not fit into a gigabyte.
 const FEW_STATES: f64 = 0.01;
 
 /// Nanoseconds of a simple operation on a lane.
@@ -216,8 +215,8 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// Seconds of the processor of a run, the least of [`RUNS`] times. Each time it runs for so long that how
-/// coarsely a system may count is less than a tenth.
+/// Returns the processor's seconds of a run, the least of [`RUNS`] measurements. Each repeats the run for at
+/// least `LEAST` seconds, so that a coarse clock errs by less than a tenth.
 fn best(mut run: impl FnMut()) -> f64 {
     let mut timed = |times: u32| {
         let started = processor::seconds();
@@ -241,14 +240,14 @@ fn gates(machine: &Gates) -> usize {
     machine.len(0) + machine.len(1)
 }
 
-/// Lane-gates a second of `threads` threads, each with rows of its own.
+/// Returns lane-gates a second of `threads` threads, each with rows of its own.
 fn gate_speed(machine: &Gates, threads: usize) -> f64 {
     let times = 2_000_000 / gates(machine) + 1;
     let mut all: Vec<_> = (0..threads).map(|_| machine.rows()).collect();
     let words: Vec<u64> = (0..machine.lanes() as u64)
         .map(|lane| lane * lane)
         .collect();
-    // Of both kinds of list the inputs come first.
+    // In both kinds of circuit the inputs are the first qubits.
     let qubits: Vec<Qubit> = (0..14).collect();
     for rows in &mut all {
         rows.set(&qubits, &words);
@@ -265,12 +264,12 @@ fn gate_speed(machine: &Gates, threads: usize) -> f64 {
             }
         });
     });
-    // The seconds of all threads together.
+    // `seconds` is the sum over all threads.
     (threads * times * gates(machine) * machine.lanes()) as f64 * threads as f64 / seconds
 }
 
-/// Prints lane-gates a second of an oracle whose gates are not held, on one block of paths; gives them by those of
-/// the scoped box.
+/// Prints lane-gates a second of an oracle whose gates are not held, on one block of paths; returns their
+/// ratio to `scoped`, those of the scoped box.
 fn speed_anew(name: &str, scene: &ValidScene, options: Options, scoped: f64) -> f64 {
     let oracle = Oracle::rgb(scene, options).unwrap_or_else(|error| panic!("{error}"));
     let pixel = [scene.scene().film.width / 2, scene.scene().film.height / 2];
@@ -300,7 +299,7 @@ fn speed_anew(name: &str, scene: &ValidScene, options: Options, scoped: f64) -> 
     speed / scoped
 }
 
-/// Lane-gates a second of nothing but `t ^= a & b` in the nearest cache.
+/// Returns lane-gates a second of nothing but `t ^= a & b` in the nearest cache.
 fn limit() -> f64 {
     const WORDS: usize = 512;
     const TIMES: usize = 20_000;
@@ -329,7 +328,7 @@ fn limit() -> f64 {
     (TIMES * WORDS * 64) as f64 / seconds
 }
 
-/// An example scene for all three channels, compute and uncompute.
+/// Returns the circuits of an example scene for all three channels, compute and uncompute.
 fn scene(name: &str, uncompute: &str) -> [Circuit; 2] {
     let sets = [format!("circuit.uncompute={uncompute}")];
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -339,7 +338,7 @@ fn scene(name: &str, uncompute: &str) -> [Circuit; 2] {
     [parts.compute, parts.uncompute]
 }
 
-/// The product of two numbers, and whether it is less than a third, computed and uncomputed.
+/// Returns the product of two numbers and its comparison with a third, computed and uncomputed.
 fn product(style: Style) -> [Circuit; 2] {
     let mut program = Program::default();
     let mut register = |width: u32, ty: Type| {
@@ -388,7 +387,7 @@ fn product(style: Style) -> [Circuit; 2] {
         .expect("one cut makes two parts")
 }
 
-/// Nanoseconds an operation of such a program takes a lane.
+/// Returns the nanoseconds that an operation of a program of `kinds` takes a lane.
 fn operation_time(width: u32, kinds: &str) -> f64 {
     const TIMES: usize = 10;
     let (program, outputs) = programs::program(width, kinds);

@@ -1,10 +1,10 @@
-//! What light sampling gains, in paths and in gates.
+//! Gain of light sampling, in paths and in gates.
 //!
 //! `cargo bench --bench light` renders the Cornell box, once with its lamp sampled at every bounce
-//! and once with paths that find it by chance. It prints how far pixels that see no lamp are off by
-//! the number of paths, RMSE over the mean against very many lamp-sampled paths; what a call of the
-//! oracle costs; and how long the gates machine takes to execute every gate of every path of the
-//! film, which is some minutes.
+//! and once with paths that find it by chance. It prints the error of pixels that see no lamp by the
+//! number of paths, as RMSE over the mean against very many lamp-sampled paths; the cost of a call of
+//! the oracle; and the time in which the gates machine executes every gate of every path of the film,
+//! which is some minutes.
 //!
 //! It fails where a promise is broken: an error of at most 8, 4, 1.3 and 0.7 % with 2^6, 2^8, 2^10
 //! and 2^12 paths; at most 1.9 times the Toffolis; and by gates, 2^8 paths with the lamp sampled in
@@ -26,7 +26,7 @@ use qrt::runtime::render::{Model, Options, render};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// The part of the film that errors are measured in: it sees no lamp.
+/// The part of the film in which errors are measured: it sees no lamp.
 const PART: [u32; 4] = [24, 24, 16, 16];
 
 fn main() -> ExitCode {
@@ -99,7 +99,7 @@ fn main() -> ExitCode {
 
 type Picture = Vec<[f64; 3]>;
 
-/// The Cornell box with 2^bits paths a pixel.
+/// Returns the Cornell box with 2^bits paths a pixel.
 fn scene(lit: bool, bits: u32) -> ValidScene {
     let light = if lit { ", light: [8, 8]" } else { "" };
     let depth = format!("{{ bits: [10, 10]{light} }}");
@@ -137,7 +137,7 @@ fn middle(pictures: &[Picture]) -> Picture {
     (0..pictures[0].len()).map(at).collect()
 }
 
-/// The RMSE over the mean.
+/// Returns the RMSE over the mean.
 fn error(picture: &[[f64; 3]], truth: &[[f64; 3]]) -> f64 {
     let pairs = || picture.as_flattened().iter().zip(truth.as_flattened());
     let squares: f64 = pairs().map(|(a, b)| (a - b).powi(2)).sum();

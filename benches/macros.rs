@@ -1,13 +1,13 @@
-//! What `qrt!` costs a crate that uses it: how long it takes to build, and how much it writes.
+//! Cost of `qrt!` for a crate that uses it: build time, and bytes of the expansion.
 //!
 //! `cargo bench --bench macros` makes a crate that depends on `qrt` without its command, with scenes
 //! from files: the Cornell box, rendered by its compiled circuit, the same within 500 qubits, and a mesh
 //! of 1,536 triangles. It prints the seconds of its first build (all dependencies, nothing optimised), of
-//! builds after one scene was changed, and of the expansion of the box; and the bytes that this expands to.
+//! builds after one scene was changed, and of the expansion of the box; and the bytes of this expansion.
 //!
 //! It fails where a promise is broken, on two cores with nothing else to do: the first build takes
 //! less than 60 seconds, the next one less than 3 with the box, less than 5 with the mesh and less than 15
-//! with the box of few qubits, the expansion less than half a second, and what is written is less than 2 MB.
+//! with the box of few qubits, the expansion less than half a second, and the expansion has less than 2 MB.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -46,11 +46,11 @@ fn main() {
 }
 "#;
 
-/// A program with a scene, and how many seconds its build after a change of the scene may take.
+/// A program with a scene, and the seconds that its build may take after a change of the scene.
 struct Author {
     binary: &'static str,
     scene: &'static str,
-    /// What of the scene is changed: where an albedo begins.
+    /// The text of the scene that the bench changes: where an albedo begins.
     changed: &'static str,
     added: &'static str,
     program: &'static str,
@@ -125,7 +125,7 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// A crate of an author's.
+/// The crate of a user.
 struct User {
     folder: PathBuf,
 }
@@ -149,7 +149,7 @@ impl User {
         }
         let knot = "meshes/knot.obj";
         std::fs::copy(root.join("scenes-yaml").join(knot), folder.join(knot)).expect("a file");
-        // The versions that were tested.
+        // The build uses the tested versions.
         std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("a file");
         let user = Self { folder };
         for author in &AUTHORS {
@@ -158,7 +158,7 @@ impl User {
         user
     }
 
-    /// Writes an author's scene, with something else where an albedo begins.
+    /// Writes an author's scene, with `changed` where an albedo begins.
     fn scene(&self, author: &Author, changed: &str) {
         let text = std::fs::read_to_string(format!("{ROOT}/scenes-yaml/{}.yaml", author.scene));
         let text = text.expect("the scene");
@@ -172,7 +172,7 @@ impl User {
         std::fs::write(file, other + "\n" + author.added).expect("a file");
     }
 
-    /// So that the box is compiled again.
+    /// Rewrites the program, so that the box is compiled again.
     fn touch(&self) {
         let program = PROGRAM.replace("NAME", "cornell");
         std::fs::write(self.folder.join("src/bin/cornell.rs"), program).expect("a file");
@@ -183,7 +183,7 @@ impl User {
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", self.folder.join("target"))
-            // For the compiler's own figures.
+            // The nightly option for the compiler's own figures needs it.
             .env("RUSTC_BOOTSTRAP", "1")
             .output()
             .expect("cargo");

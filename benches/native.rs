@@ -1,9 +1,9 @@
-//! How many paths a second the code that `qrt!` compiles traces, beside the fixed machine, which
-//! goes through the same program step by step.
+//! Measures the throughput of the code that `qrt!` compiles, beside the fixed machine, which
+//! executes the same program step by step.
 //!
 //! `cargo bench --bench native` prints, for every instruction set of this processor and scene by
-//! scene, paths a second of one core by each, and how many times as fast the code is. Both compute
-//! all three channels of every path, and the same bits.
+//! scene, paths a second of one core by each, and their ratio. Both compute all three channels of
+//! every path, and the same bits.
 //!
 //! It fails where a promise is broken: on the Cornell box, with AVX-512 and with AVX2, the code is
 //! at least 1.5 times as fast as the interpreted program.
@@ -27,11 +27,11 @@ qrt! {
     scene Mirror from "scenes-yaml/cornell-mirror.yaml"
 }
 
-/// Best of so many runs, in turn, so that what slows the machine slows both.
+/// Number of runs of which the best counts. The machines take turns, so that noise slows both alike.
 const RUNS: usize = 40;
 
-/// How many times as fast as the interpreted program. It is twice as fast on a quiet machine; the
-/// rest is for others at work.
+/// Promised ratio to the interpreted program. It is 2 on a quiet machine; the rest is allowance for other
+/// processes.
 const BAR: f64 = 1.5;
 
 const PIXELS: [[u32; 2]; 4] = [[19, 37], [32, 16], [25, 50], [44, 44]];
@@ -93,7 +93,7 @@ fn all(machine: &OracleMachine) -> Vec<i64> {
     values
 }
 
-/// Paths a second.
+/// Returns paths a second.
 fn speed(machine: &OracleMachine) -> f64 {
     let started = Instant::now();
     machine

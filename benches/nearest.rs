@@ -1,17 +1,17 @@
-//! What finding primary hits by quantum search takes: queries over the number of faces P.
+//! Queries to find primary hits by quantum search, over the number of faces P.
 //!
 //! `cargo bench --bench nearest` prints, for scenes of 4 to 1,024 faces (parallelograms askew
 //! before a perspective camera; rectangles along the axes before an orthographic one, as in Alves
 //! 2019) and for example scenes, mean queries a ray
 //!
-//! * of a search that begins with nothing, and of one that begins with what the path before it met
-//!   or, with one path a pixel, what the pixel beside it met,
-//! * against P, which asking about every face takes, and against sqrt(P),
-//! * against 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
+//! * of a search without a first guess, and of one whose guess is the hit of the path before it
+//!   or, with one path a pixel, the hit of the pixel beside it,
+//! * relative to P, the queries of a test of every face, and relative to sqrt(P),
+//! * relative to 22.5 sqrt(N) + 1.4 (log2 N)^2, after which Durr & Hoyer (1996) have found the minimum
 //!   with probability 1/2;
 //!
 //! the rays whose nearest face was missed, beside the bound on their fraction; Toffolis and qubits
-//! of a query; and the exponents that fit best. It fails where a promise is broken.
+//! of a query; and the fitted exponents. It fails where a promise is broken.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -33,13 +33,13 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-/// The probability with which a ray's nearest face may be missed.
+/// Failure probability delta of a ray's search.
 const FAILURE: f64 = 1e-3;
 
-/// Paths of a pixel that are traced.
+/// Number of paths traced per pixel.
 const PATHS: usize = 16;
 
-/// Pixels of a film's side that are traced, from its middle.
+/// Width and height in pixels of the traced part in the middle of the film.
 const SIDE: u32 = 16;
 
 fn main() -> ExitCode {
@@ -81,7 +81,7 @@ fn main() -> ExitCode {
         header();
         let rows = scenes.map(|scene| {
             let path = root.join("scenes-yaml").join(format!("{scene}.yaml"));
-            // The search is held against a row of planes that is not undone plane by plane.
+            // The search is compared with a row of planes that is not uncomputed plane by plane.
             let keep = ["circuit.uncompute=keep".to_owned()];
             let row = Row::new(&front::load(&path, &keep).unwrap().valid, paths);
             row.print();
@@ -103,7 +103,7 @@ fn judge(rows: &[Row], name: &str, promises: &mut Promises) {
     for (which, guess) in ["random", "coherent"].into_iter().zip(0..) {
         let missed: u64 = rows.iter().map(|row| row.missed[guess]).sum();
         let rays: u64 = rows.iter().map(|row| row.rays).sum();
-        // Four standard deviations of so many rays.
+        // Allow four standard deviations of the number of misses.
         let mean = FAILURE * rays as f64;
         let text = format!("{name}, {which}: {missed} of {rays} rays missed, {mean:.0} allowed");
         promises.judge(&text, missed as f64 <= mean + 4.0 * mean.sqrt());
@@ -114,9 +114,9 @@ struct Row {
     faces: f64,
     states: usize,
     rays: u64,
-    /// Without a first guess, and with one: mean queries of a ray.
+    /// Mean queries of a ray, without a first guess and with one.
     queries: [f64; 2],
-    /// Rays of which another face than the nearest was found.
+    /// Number of rays for which the search found another face than the nearest.
     missed: [u64; 2],
     durr_hoyer: f64,
     toffoli: u64,
@@ -212,7 +212,7 @@ fn parsed(text: &str) -> ValidScene {
         .valid
 }
 
-/// A scene of rectangles along the axes, all facing an orthographic camera that looks along -z.
+/// Returns a scene of rectangles along the axes, all facing an orthographic camera that looks along -z.
 fn rectangles(count: u32) -> String {
     let mut text = String::from(
         "name: rectangles\n\

@@ -1,20 +1,20 @@
-//! Every estimator on noisy devices: what is left of its error's fall.
+//! Measures every estimator on noisy devices: whether its error still falls with more queries.
 //!
 //! For each estimator, kind of noise and amplitude: the mean absolute error at growing numbers of
 //! queries, once with a likelihood that knows the noise, once without. An estimator *survives* if
 //! sixteen times the queries still halve its error. Estimators that run phase estimation are shown
-//! with one register as long as the queries allow, and with as many repetitions of a register of
-//! five bits as they allow.
+//! with one register as long as the queries allow, and with the most repetitions of a register of
+//! five bits that the queries allow.
 //!
-//! At the end the claim of the quantum coin's authors is put to the test: that it is more robust
-//! than quantum supersampling. What is found is asserted, with margins:
+//! At the end the bench tests the claim of the quantum coin's authors, that it is more robust than
+//! quantum supersampling. It asserts these findings, with margins:
 //!
 //! * one long register does not survive a depolarising noise of 1e-3: more queries make it worse;
 //!   repetitions of a short one survive if their likelihoods are joined;
 //! * the coins survive a depolarising noise of 1e-2 and a readout error of 1e-2, and knowing the
 //!   noise is worth a factor of 1.5 at the least;
 //! * under depolarising noise the claim holds, against one register and against short ones; under
-//!   readout errors it does not hold against short registers, whose few bits are read rightly more
+//!   readout errors it does not hold against short registers, whose few bits are read correctly more
 //!   often than the coin's, which must all be 0.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -25,11 +25,11 @@ use qrt_runtime::random::Stream;
 
 const TOTAL: u64 = 1 << 20;
 const RUNS: u32 = 300;
-/// Queries are 2^t - 1, or the most runs of the short register that they allow.
+/// Bits t of 2^t - 1 queries; the short register runs as often as fits into that number.
 const BITS: [u32; 4] = [6, 8, 10, 12];
 const SHORT: u32 = 5;
 
-/// What a row of the tables shows.
+/// The settings of a row of the tables.
 #[derive(Clone, Copy)]
 struct Case {
     name: Estimator,
@@ -63,7 +63,7 @@ impl Case {
         }
     }
 
-    /// The mean absolute error.
+    /// Returns the mean absolute error.
     fn error(&self, bits: u32) -> f64 {
         let estimator = estimator(self.name, &self.settings(bits)).unwrap();
         let mut sum = 0.0;
@@ -139,7 +139,7 @@ fn tables() {
     }
 }
 
-/// Errors of the quantum coin and of supersampling at 255 queries, as in the authors' comparison
+/// Prints the errors of the quantum coin and of supersampling at 255 queries, as in the authors' comparison
 /// (240 and 255): alone, and relative to a perfect device.
 fn claim() {
     println!("\nThe claim: mean |error| at 255 queries, a uniform, and its growth by the noise");

@@ -1,10 +1,10 @@
-//! What counting costs beside tracing, at an error of one percent.
+//! Compares the time of counting with that of tracing, at an error of one percent.
 //!
-//! `cargo bench --bench one_percent` asks the Cornell box for an error of 1 % of its mean with
-//! probability 95 %, takes the parameters that are chosen for it, and renders a film of 8 x 8
+//! `cargo bench --bench one_percent` requests an error of 1 % of the mean for the Cornell box with
+//! probability 95 %, takes the parameters that the planner chooses, and renders a film of 8 x 8
 //! pixels with and without counting; `-- 64` renders all 64 x 64, which takes ten minutes. Times
-//! are those of the processor, where the system tells. Fails if drawing measurements and estimating
-//! from them take longer than tracing the paths.
+//! are those of the processor, where the system reports them. Fails if drawing measurements and
+//! estimating from them take longer than tracing the paths.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -18,7 +18,7 @@ use std::path::Path;
 fn main() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
     let text = std::fs::read_to_string(folder.join("cornell-box.yaml")).unwrap();
-    // What is chosen may not be written.
+    // A scene that requests an accuracy must not set the parameters that the planner chooses.
     let chosen = ["  path_bits", "comparator:", "counting:"];
     let kept = text
         .lines()
@@ -60,8 +60,8 @@ fn main() {
     assert!(counting < traced, "counting takes longer than tracing");
 }
 
-/// Seconds that all cores together have worked on this process, where the system tells: what others
-/// do at the same time does not count.
+/// Returns the seconds that all cores together have worked on this process, where the system reports them:
+/// other processes do not count.
 fn processor_seconds() -> Option<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     // The command's name, in parentheses, may hold spaces.
@@ -70,6 +70,6 @@ fn processor_seconds() -> Option<f64> {
     let [user, system] = ticks[..] else {
         return None;
     };
-    // Linux counts in hundredths for everyone, whatever its own clock.
+    // Linux reports hundredths of a second to all programs, whatever its own clock.
     Some((user + system) as f64 / 100.0)
 }

@@ -1,4 +1,4 @@
-//! What a path tracer costs as a circuit, how the cost grows, and how long the compiler takes.
+//! Cost of a path tracer as a circuit, its growth, and the time of the compiler.
 //!
 //! `cargo bench --bench oracle` prints, for the oracle of a channel O_f (compute, compare, flip,
 //! uncompute) of the worst channel, each at the scene's own widths:
@@ -6,19 +6,19 @@
 //! * seconds from scene to program and from program to gates, for every example scene, the knot
 //!   with fewer triangles;
 //! * gates, qubits and Toffoli depth of the Cornell box, by strategy;
-//! * what each of the compiler's passes is worth;
+//! * the savings of each of the compiler's passes;
 //! * Toffolis and qubits over the number of quads P, rays D, path bits log2 R, comparator bits
 //!   log2 C and fraction bits w, each with the exponent of a power of it that fits best, and the
 //!   fraction of the cost by which that misses (root mean square);
 //! * Toffolis a face of convex bodies: a cube, an icosahedron and a hull of 80 faces;
-//! * the front of the box: the strategies that no other beats in qubits and in Toffolis, each beside what
-//!   `keep` took when every plane was asked about every ray; and how the cheapest within 5,000 and within
-//!   2,000 qubits, and the one with the fewest, grow with P, D and w;
-//! * what sampled lamps cost: the box with them, by the box without.
+//! * the front of the box: the strategies that no other beats in qubits and in Toffolis, each beside the
+//!   cost under `keep` when every plane was tested for every ray; and the growth with P, D and w of the
+//!   cheapest within 5,000 and within 2,000 qubits, and of the one with the fewest;
+//! * the cost of sampled lamps: the box with them, relative to the box without.
 //!
-//! It fails where a promise is broken: what the box may cost, how the cost may grow, what a face of a
-//! convex body may cost, how much more sampled lamps may, and in which part of the time that finding the
-//! front takes `uncompute: auto` finds the cheapest of it that fits.
+//! It fails where a promise is broken: bounds on the cost of the box, on the exponents of growth, on the
+//! Toffolis of a face of a convex body, on the cost of sampled lamps, and on the time in which
+//! `uncompute: auto` finds the cheapest strategy that fits, as a fraction of that of finding the front.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -56,33 +56,33 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Toffolis that the box's oracle may take under `uncompute: keep`, and those aimed at.
+/// Toffolis of the box's oracle under `uncompute: keep`: promised, and aimed at.
 const TOFFOLIS: [u64; 2] = [85_000, 67_000];
 
-/// Qubits that it may take under `uncompute: scoped`, and those aimed at.
+/// Qubits of the box's oracle under `uncompute: scoped`: promised, and aimed at.
 const QUBITS: [u64; 2] = [1_500, 500];
 
-/// Toffolis that it may take, at most, within so many qubits.
+/// Number of qubits, and the most Toffolis that the box may take within it.
 const WITHIN: [[u64; 2]; 3] = [[5_000, 200_000], [2_000, 500_000], [500, 5_000_000]];
 
-/// In which part of the time that finding all of the front takes `auto` may find the cheapest that fits.
+/// Promised time of `auto` to find the cheapest that fits, as a fraction of that of finding all of the front.
 const AUTO: f64 = 0.75;
 
-/// What the box took under `keep` when every plane was asked about every ray: Toffolis and qubits.
+/// Toffolis and qubits of the box under `keep` when every plane was tested for every ray.
 const ALL_PLANES: [u64; 2] = [160_912, 87_280];
 
-/// How many times as many Toffolis the box may take with sampled lamps.
+/// Promised ratio of the box's Toffolis with sampled lamps to those without.
 const LIT: f64 = 1.9;
 
-/// Convex bodies, and the Toffolis that each of their faces took when every face was tested by its
-/// plane and its edges: at most half may be left.
+/// Convex bodies, and the Toffolis of each of their faces when every face was tested by its plane and
+/// its edges: at most half may remain.
 const BODIES: [(&str, Solid, u64); 3] = [
     ("cube", Solid::Cube, 12_253),
     ("icosahedron", Solid::Icosahedron, 10_833),
     ("hull of 80 faces", Solid::Hull, 10_554),
 ];
 
-/// Where an exponent that should be 1 may lie.
+/// Range of an exponent that should be 1.
 const LINEAR: RangeInclusive<f64> = 0.9..=1.1;
 
 fn main() -> ExitCode {
@@ -135,7 +135,7 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// What was measured of an oracle.
+/// Measured costs of an oracle.
 struct Measured {
     cost: Cost,
     qubits: u64,
@@ -159,7 +159,7 @@ fn cost(oracle: &Oracle) -> Cost {
     lower::tally(&oracle.whole(0)).into_iter().sum()
 }
 
-/// The oracle of the channel that takes most Toffolis.
+/// Returns the oracle of the channel with the most Toffolis.
 fn worst(scene: &ValidScene, passes: Passes) -> (Oracle, Cost) {
     let all = (0..3).map(|channel| {
         let oracle = oracle(scene, channel, passes);
@@ -179,7 +179,7 @@ fn measured((oracle, cost): &(Oracle, Cost)) -> Measured {
     }
 }
 
-/// Prints how long the compiler takes.
+/// Prints the times of the compiler.
 fn seconds(root: &Path) {
     println!("seconds: scene to program | program to gates; what comes of it; the first channel");
     let knot = mesh::mesh(root, mesh::CLOSE, [3, 6], 12);
@@ -198,7 +198,7 @@ fn seconds(root: &Path) {
     }
 }
 
-/// Prints what the box costs; Toffolis that it takes under `keep`, qubits under `scoped`.
+/// Prints the costs of the box; returns its Toffolis under `keep` and its qubits under `scoped`.
 fn strategies(root: &Path) -> [u64; 2] {
     let width = oracle(&load(root, "cornell-box", &[]), 0, Passes::ALL).fraction;
     println!(
@@ -238,7 +238,7 @@ fn strategies(root: &Path) -> [u64; 2] {
     bars
 }
 
-/// Prints what the box costs with more and more passes.
+/// Prints the cost of the box with more and more passes.
 fn passes(root: &Path) {
     println!("\nCornell box, pass by pass: Toffolis, and of those before");
     let scene = load(root, "cornell-box", &[]);
@@ -260,7 +260,7 @@ fn passes(root: &Path) {
     }
 }
 
-/// Prints how the cost grows, and says which promises about that hold.
+/// Prints the growth of the cost, and returns the promises about it, each with whether it holds.
 fn growth(root: &Path) -> [(&'static str, bool); 4] {
     let set = |key: &str, value: u32| load(root, "cornell-box", &[&format!("{key}={value}")]);
     let grown = |what: &str, sizes: &[u32], scene: &dyn Fn(u32) -> ValidScene| {
@@ -272,8 +272,8 @@ fn growth(root: &Path) -> [(&'static str, bool); 4] {
     let faces = grown("quads P, D = 3", &sizes, &generated).fitted(4..=128);
     let sizes = [1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24];
     let depths = grown("rays D, of the box", &sizes, &|depth| rays(root, depth));
-    // The first ray is the cheapest: a straight line, but not through zero. Far on, what a ray can
-    // still add rounds to nothing, and it vanishes.
+    // The first ray is the cheapest: a straight line, but not through zero. After many rays, the light
+    // that another can add rounds to zero, and the compiler drops it.
     depths.fitted(2..=8);
     let depths = depths.fitted(8..=24);
     let sizes = [4, 8, 12, 16, 20, 24];
@@ -308,7 +308,7 @@ fn growth(root: &Path) -> [(&'static str, bool); 4] {
     ]
 }
 
-/// Prints what convex bodies cost; Toffolis a face of each.
+/// Prints the costs of convex bodies; returns the Toffolis a face of each.
 fn faces(root: &Path) -> [u64; 3] {
     let toffoli = |solid: Option<Solid>| {
         let parsed = front::parse(&bodies::scene(solid), "body.yaml", &[], root);
@@ -326,13 +326,13 @@ fn faces(root: &Path) -> [u64; 3] {
     })
 }
 
-/// A scene of so many quads.
+/// Returns a scene of `count` quads.
 fn generated(root: &Path, count: u32) -> ValidScene {
     let parsed = front::parse(&quads(count), "quads.yaml", &[], root);
     parsed.unwrap_or_else(|report| panic!("{report}")).valid
 }
 
-/// The box, with paths of so many rays.
+/// Returns the box, with paths of `depth` rays.
 fn rays(root: &Path, depth: u32) -> ValidScene {
     let depths = vec!["{ bits: [10, 10] }"; depth as usize].join(", ");
     load(
@@ -342,7 +342,7 @@ fn rays(root: &Path, depth: u32) -> ValidScene {
     )
 }
 
-/// What `auto` finds for the box within so many qubits, and in how many seconds.
+/// Returns the layout that `auto` finds for the box within `qubits` qubits, and the seconds of the search.
 fn auto(root: &Path, qubits: u64) -> (Layout, f64) {
     let scene = load(root, "cornell-box", &[]);
     let started = Instant::now();
@@ -353,7 +353,7 @@ fn auto(root: &Path, qubits: u64) -> (Layout, f64) {
     (layout.unwrap_or_else(|error| panic!("{error}")), seconds)
 }
 
-/// Prints the front of the box, and how some of its strategies grow; in how many seconds it was found.
+/// Prints the front of the box, and the growth of some of its strategies; returns it with the seconds taken.
 fn pareto(root: &Path) -> (Vec<Layout>, f64) {
     let scene = load(root, "cornell-box", &[]);
     let started = Instant::now();
@@ -405,13 +405,13 @@ fn pareto(root: &Path) -> (Vec<Layout>, f64) {
     (front, seconds)
 }
 
-/// The cheapest within so many qubits.
+/// Returns the cheapest layout within `qubits` qubits.
 fn cheapest(front: &[Layout], qubits: u64) -> Option<&Layout> {
     let within = front.iter().filter(|layout| layout.cost.qubits <= qubits);
     within.min_by_key(|layout| layout.cost.toffoli)
 }
 
-/// How many times as many Toffolis the box takes with sampled lamps, with the same bits.
+/// Returns the ratio of the box's Toffolis with sampled lamps to those without, with the same bits.
 fn lit(root: &Path) -> f64 {
     let light = "{ bits: [10, 10], light: [8, 8] }";
     let depths = format!("sampling.depths=[{{ bits: [10, 10] }}, {light}, {light}]");
@@ -424,10 +424,10 @@ fn lit(root: &Path) -> f64 {
     with as f64 / without as f64
 }
 
-/// The costs of a family of scenes: size, Toffolis and qubits.
+/// Costs of a family of scenes: size, Toffolis and qubits.
 struct Grown(Vec<[f64; 3]>);
 
-/// Prints the costs of a family of scenes.
+/// Measures and prints the costs of a family of scenes.
 fn grown(
     what: &str,
     sizes: &[u32],
@@ -446,7 +446,7 @@ fn grown(
 }
 
 impl Grown {
-    /// Fits powers to the costs of these sizes and prints them; the Toffolis' exponent.
+    /// Fits powers to the costs of the sizes in `sizes` and prints them; returns the Toffolis' exponent.
     fn fitted(&self, sizes: RangeInclusive<u32>) -> f64 {
         let within = |cost: &&[f64; 3]| sizes.contains(&(cost[0] as u32));
         let [toffolis, qubits] = [1, 2].map(|i| {

@@ -1,8 +1,8 @@
-//! Every scene of the independent renderer, at every depth, without light sampling and with it.
+//! Compares every scene of the independent renderer, at every depth, without light sampling and with it.
 //!
-//! `cargo bench --bench references` prints how far qrt's pictures are from the reference, as
+//! `cargo bench --bench references` prints the differences of qrt's pictures from the reference, as
 //! fractions of the reference's mean, and fails where a promise is broken: without light sampling
-//! at 2^18 paths a pixel, with it at 2^16. `-- none`, `-- auto` or `-- mis` asks for one of the
+//! at 2^18 paths a pixel, with it at 2^16. `-- none`, `-- auto` or `-- mis` selects one of the
 //! three.
 
 // A bench that cannot run has nothing to report.
@@ -15,8 +15,7 @@ use independent::{asking, mean, reference, rms_difference, scene, traced};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Scene, and its promises, the root mean square error over the mean: without light sampling, and
-/// with it.
+/// Scene, and its promised root mean square errors over the mean: without light sampling, and with it.
 const SCENES: [(&str, f64, f64); 8] = [
     ("furnace", 0.015, 0.012),
     ("floorlight", 0.015, 0.012),
@@ -28,11 +27,11 @@ const SCENES: [(&str, f64, f64); 8] = [
     ("torusknot8k", 0.015, 0.012),
 ];
 
-/// A scene whose reference has an error of 1.5 % itself, more than what is promised: only what its
-/// difference has beyond that is qrt's.
+/// A scene whose reference has an error of 1.5 % itself, more than is promised: only the part of the
+/// difference beyond that is qrt's.
 const NOISY: &str = "cornell_mirrorwall";
 
-/// The promise for the mean.
+/// Promised error of the mean.
 const MEAN: f64 = 0.003;
 
 /// Ways of sampling lamps, and path bits.
@@ -50,7 +49,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(!kept))
 }
 
-/// Whether all promises are kept where lamps are sampled in this way.
+/// Returns true if all promises are kept with the way `lights` of sampling lamps.
 fn measure(lights: &str, path_bits: u32) -> bool {
     println!(
         "lights: {lights}, 2^{path_bits} paths a pixel, 16 x 16 pixels; all figures in % of the \
@@ -72,7 +71,7 @@ fn measure(lights: &str, path_bits: u32) -> bool {
             let started = Instant::now();
             let ours = traced(&scene, 1);
             let seconds = started.elapsed().as_secs_f64();
-            // A black picture has no mean to measure by, and no error to make.
+            // A black picture has a mean of zero and no error, so the unit does not matter.
             let unit = if level > 0.0 { level } else { 1.0 };
             let rmse = rms_difference(&ours, &theirs) / unit;
             let noise = rms_difference(&standard_error, &vec![[0.0; 3]; theirs.len()]) / unit;

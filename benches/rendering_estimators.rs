@@ -1,8 +1,8 @@
-//! The estimators that quantum rendering brought: coverage, convergence, and the time they take.
+//! Estimators of quantum rendering: coverage, convergence, and time.
 //!
 //! Promises, each asserted: at a confidence of 95 %, the coverage is 94 % or more, for a
 //! uniform in [0, 1] and at its extremes; the 95th-percentile error falls as 1/queries;
-//! queries x error is what the table says; an estimate of 10^4 queries takes half a millisecond
+//! queries x error is within the bounds below; an estimate of 10^4 queries takes half a millisecond
 //! at most.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -14,7 +14,7 @@ use qrt_core::scene::{Counting, Estimator, Window};
 use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
 use qrt_runtime::random::Stream;
 
-/// The estimators, and the most that queries x 95th-percentile error may be.
+/// The estimators, each with the largest allowed queries x 95th-percentile error.
 const ESTIMATORS: [(Estimator, f64); 3] = [
     (Estimator::Qss, 5.1),
     (Estimator::Qcoin, 11.5),
@@ -33,7 +33,7 @@ fn settings(phase_bits: u32) -> Settings {
     Settings::of(&counting).unwrap()
 }
 
-/// Absolute errors in ascending order, and the coverage: the fraction of the intervals that contain
+/// Returns absolute errors in ascending order, and the coverage: the fraction of the intervals that contain
 /// a.
 fn measure(
     name: Estimator,
@@ -114,7 +114,7 @@ fn main() {
             queries: 10_000,
             ..settings(13)
         };
-        // The quickest of several batches: what else the machine does is not the estimator's.
+        // The quickest of several batches counts: slower ones include other work of the machine.
         let mut microseconds = f64::INFINITY;
         for _ in 0..20 {
             let (start, runs) = (Instant::now(), 100);

@@ -3,10 +3,10 @@
 //! `cargo bench --bench statevector` counts the good indices of n bits with a register of t bits,
 //! n + t = 8 + 8 to 10 + 10, from one list of gates (Hadamards, controlled powers of the Grover
 //! iterate, inverse Fourier transform): on the dense machine, the sparse one, and by the reduced
-//! and the subspace models. It prints seconds, and how far each is from the closed form. Beside
-//! them stand figures of other simulators: measured on the same list in the same run by
+//! and the subspace models. It prints seconds, and the distance of each from the closed form. Beside
+//! them it prints figures of other simulators: measured on the same circuit in the same run by
 //! `benches/peers/counting.py`, where there is a `python3` that can install them, and those of
-//! another machine (2 cores of a Zen 5), measured on a list like it.
+//! another machine (2 cores of a Zen 5), measured on a similar circuit.
 //!
 //! It fails where a promise is broken, at 10 + 10, against the fastest of the others: the dense
 //! machine is faster, the reduced model at least 100 times as fast, the subspace at least 10,000
@@ -53,13 +53,13 @@ const PUBLISHED: [(&str, [Option<f64>; 3]); 6] = [
     ("Q# sparse", [Some(20.0), None, None]),
 ];
 
-/// Those that are measured in this run: by name of the script, and how far they may be off.
+/// Simulators measured in this run: name in the script, name in the table, and allowed error.
 const MEASURED: [(&str, &str, f64); 2] = [
     ("lightning", "lightning.qubit, this run", 1e-10),
     ("qsim", "qsim, this run", 1e-2),
 ];
 
-/// An index is good where an odd number of these hold, each a conjunction of the index's bits.
+/// Monomials of an index's bits: an index is good if an odd number of them are 1.
 const MONOMIALS: [&[u32]; 4] = [&[0, 1], &[2, 3, 4], &[0, 3, 6, 7], &[1, 2, 5, 7]];
 
 struct Problem {
@@ -87,7 +87,7 @@ impl Problem {
         Counting::new(&self.oracle, self.bits, Window::Rect).expect("a small register")
     }
 
-    /// The largest error of a distribution.
+    /// Returns the largest error of a distribution.
     fn off(&self, distribution: &[f64]) -> f64 {
         let exact = PhaseDistribution::new(self.good, 1 << self.bits, self.bits, Window::Rect);
         let exact = exact.expect("counts");
@@ -185,7 +185,7 @@ fn run<M: StateVector>(machine: &mut M, counting: &Counting<'_>, checks: Checks)
     counted.distribution
 }
 
-/// Least seconds of so many runs, and what they find.
+/// Returns the least seconds of `runs` runs, and their result.
 fn best(runs: usize, mut run: impl FnMut() -> Vec<f64>) -> (f64, Vec<f64>) {
     let mut least = (f64::INFINITY, Vec::new());
     for _ in 0..runs {
@@ -222,7 +222,7 @@ fn row(
     seconds
 }
 
-/// Seconds that another simulator takes for a problem's gates, and the phase register's outcomes.
+/// Returns the seconds that another simulator takes for a problem's gates, and the phase register's outcomes.
 fn peer(tool: &str, problem: &Problem) -> Result<(f64, Vec<f64>), String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/counting.py");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("peers");
@@ -237,7 +237,7 @@ fn peer(tool: &str, problem: &Problem) -> Result<(f64, Vec<f64>), String> {
         .map_err(|error| format!("no python3: {error}"))?;
     let circuit = circuit(&problem.counting()).to_string();
     let mut input = python.stdin.take().ok_or("no standard input")?;
-    // What comes back says more than a closed pipe.
+    // The script's own error says more than a closed pipe, so `written` is checked last.
     let written = input.write_all(circuit.as_bytes());
     drop(input);
     let output = python
@@ -255,7 +255,7 @@ fn peer(tool: &str, problem: &Problem) -> Result<(f64, Vec<f64>), String> {
     Ok((seconds, outcomes.iter().filter_map(Value::as_f64).collect()))
 }
 
-/// The circuit as the script reads it.
+/// Returns the circuit in the script's format.
 fn circuit(counting: &Counting<'_>) -> Value {
     type Sink<'a> = Box<dyn FnMut(QuantumGate<'_>) -> Result<(), Infallible> + 'a>;
     let list = |emit: &dyn Fn(&mut Sink<'_>) -> Result<(), Infallible>| {

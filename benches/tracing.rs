@@ -1,12 +1,12 @@
-//! How many paths a second the real machine traces, and where the time goes.
+//! Measures the throughput of the real machine, and where the time goes.
 //!
 //! `cargo bench --bench tracing` prints paths per second of the Cornell box at D = 1..4 on all
 //! cores, of a 65,536-triangle mesh, and of small meshes with and without boxes in front of their
-//! faces, and the time to prepare lamps of one plane. It fails where a promise
-//! is broken: the box at D = 4 traces at least 9.3 million paths a
-//! second on two cores of this kind (what a production renderer's fastest mode traces of the same
-//! scene on two), the mesh at least a third of what the box does, from afar and close up, and four
-//! times as many corners of a polygon, or lamps of one plane, in at most eight times the time.
+//! faces, and the time to prepare lamps of one plane. It fails where a promise is broken: the box at
+//! D = 4 traces at least 9.3 million paths a second on two cores of this kind (the throughput of a
+//! production renderer's fastest mode on the same scene and two cores), the mesh at least a third of
+//! the box's throughput, from afar and close up, and four times the corners of a polygon, or four
+//! times the lamps of one plane, take at most eight times the time.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -30,10 +30,10 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Paths per second and core that the box must reach.
+/// Promised paths per second and core of the box.
 const BAR: f64 = 9.3e6 / 2.0;
 
-/// Best of so many runs: the machine's noise only ever slows.
+/// Number of runs of which the best counts: the machine's noise only ever slows.
 const RUNS: usize = 5;
 
 fn main() -> ExitCode {
@@ -112,10 +112,10 @@ fn main() -> ExitCode {
     promises.exit()
 }
 
-/// An OBJ file of so many corners or faces.
+/// A function from a number of corners or faces to an OBJ file.
 type Shape = fn(u32) -> String;
 
-/// A polygon of so many corners in the plane z = 0, as an OBJ file.
+/// Returns a polygon of `corners` corners in the plane z = 0, as an OBJ file.
 fn polygon(corners: u32) -> String {
     let mut text = String::new();
     for corner in 0..corners {
@@ -130,7 +130,7 @@ fn polygon(corners: u32) -> String {
     text
 }
 
-/// Squares of that plane that cover each other.
+/// Returns squares of that plane that cover each other.
 fn heap(count: u32) -> String {
     let square = |share: f64| {
         let size = 1.0 + share;
@@ -139,7 +139,7 @@ fn heap(count: u32) -> String {
     rectangles(count, square)
 }
 
-/// Oblique strips of that plane side by side: where they lie along the axes overlaps.
+/// Returns oblique strips of that plane side by side, whose bounding boxes overlap.
 fn strips(count: u32) -> String {
     let wide = 0.4 / f64::from(count);
     let strip = |x: f64| {
@@ -164,7 +164,7 @@ fn rectangles(count: u32, corners: impl Fn(f64) -> [[f64; 2]; 4]) -> String {
     text
 }
 
-/// Seconds from a scene with a lamp of this shape in the knot's place to a machine that traces it.
+/// Returns the seconds from a scene with a lamp of this shape in the knot's place to a machine that traces it.
 fn set_up(root: &Path, obj: &str) -> f64 {
     let sets = || {
         let mut sets = sets(2, 2);
@@ -189,7 +189,7 @@ fn machine(scene: &ValidScene) -> Real {
     Real::new(scene, 1).expect("a valid scene's sequence exists")
 }
 
-/// Paths a second over `threads` threads that share the film's rows.
+/// Returns paths a second over `threads` threads that share the film's rows.
 fn speed(real: &Real, threads: usize) -> f64 {
     let rows: Vec<Vec<[u32; 2]>> = (0..SIDE)
         .map(|y| (0..SIDE).map(|x| [x, y]).collect())

@@ -1,4 +1,4 @@
-//! What a finite number of paths costs, by the way they are chosen.
+//! Error of a finite number of paths, by the way they are chosen.
 //!
 //! `cargo bench --bench truncation` compares the digital net, independent random paths and the
 //! paper's product lattice on the Cornell box at D = 3 with an independent renderer's picture,
@@ -46,7 +46,7 @@ impl Series {
         self.dark.iter().find(|p| p.0 == bits).map(|p| p.1)
     }
 
-    /// The slope of the error over the paths.
+    /// Returns the slope of the error over the paths.
     fn slope(&self) -> f64 {
         let points = self.dark.iter();
         let points = points.map(|&(bits, error)| (f64::from(bits), error.log2()));
@@ -57,7 +57,7 @@ impl Series {
 /// Measures a picture against the reference, away from the lamp and over all pixels.
 struct Judge {
     reference: Picture,
-    /// Its own root mean square error, over the mean, away from the lamp.
+    /// Root mean square error of the reference itself, over the mean, away from the lamp.
     noise: f64,
     /// Pixels that do not see the lamp.
     dark: Vec<bool>,
@@ -162,7 +162,7 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-/// The table: RMSE over the mean, away from the lamp (`dark`) and over all pixels.
+/// Returns the table: RMSE over the mean, away from the lamp (`dark`) and over all pixels.
 fn csv(series: &[Series; 3]) -> String {
     let mut text = String::from("paths,path_bits,dark,all\n");
     for s in series {

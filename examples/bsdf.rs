@@ -1,13 +1,13 @@
-//! A BSDF of one's own: its map from the unit square to directions, and its value as a reversible
+//! A user-defined BSDF: its map from the unit square to directions, and its value as a reversible
 //! function.
 //!
 //! ```sh
 //! cargo run --release --example bsdf
 //! ```
 //!
-//! writes `bsdf.png`, says what the scene's circuit costs, and runs the function on its own. What
-//! the compiler refuses is worth a try: `slant_i += cos_i - 1`, which is below 0, or `out += 1`, by
-//! which the cloth would give more light than it gets.
+//! writes `bsdf.png`, prints the cost of the scene's circuit, and runs the function on its own. Try
+//! what the compiler refuses: `slant_i += cos_i - 1`, which is below 0, or `out += 1`, with which
+//! the cloth would reflect more light than it receives.
 
 use qrt::prelude::*;
 
@@ -39,7 +39,7 @@ qrt! {
         film: 48 x 36,
 
         material velvet: bsdf {
-            // Directions for which the height is uniform: the sheen is low, and so are its paths.
+            // Directions with uniform height: the sheen is low, and so are its paths.
             map: |u, v| (sqrt(1 - u^2) * cos(2 * pi * v), sqrt(1 - u^2) * sin(2 * pi * v), u),
             jacobian: auto,
             value: fn cloth,
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Draped::OPERATIONS
     );
 
-    // The function on its own: its own gates, on every machine.
+    // Runs the function on its own: its own gates, on every machine.
     let program = cloth_program(Style::InPlace);
     let inputs = [(1.0, 1.0), (0.5, 0.5), (0.25, 0.125), (0.0, 0.0)];
     let states: Option<Vec<[u64; 3]>> = inputs
@@ -90,7 +90,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("cloth({cos_i}, {cos_o}) = {value} by definition, operations and gates");
     }
 
-    // In the scene, its mathematics is compiled with the scene's width.
+    // In the scene, the compiler gives the function the scene's width.
     let options = Options {
         model: Model::Fixed,
         ..Options::default()

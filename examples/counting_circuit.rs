@@ -6,8 +6,8 @@
 //!
 //! A lamp before a coloured wall is compiled to a circuit; around it come the Grover iterate, its
 //! controlled powers and the inverse Fourier transform. All of it runs on amplitudes, ancillas
-//! included. Beside what the circuit measures stands the distribution that `qrt render` draws from,
-//! which knows only how many indices are good.
+//! included. Beside the measured distribution the program prints the one that `qrt render` draws
+//! from, which depends only on the number of good indices.
 
 use qrt::core::oracle::Oracle;
 use qrt::core::scene::Window;
@@ -26,7 +26,7 @@ const PHASE_BITS: u32 = 5;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = parse(SCENE, "lit-wall.yaml", &[], "".as_ref())?.valid;
 
-    // What is known without amplitudes: each path's colour, and so S.
+    // Without amplitudes, the classical machine gives each path's colour, and so S.
     let all = Arc::new(Oracle::rgb(&scene, qrt::core::oracle::Options::default())?);
     let machine = OracleMachine::fixed(all.clone(), SEED, false);
     let mut good = [0; 3];

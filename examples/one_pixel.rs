@@ -16,7 +16,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 // ANCHOR_END: uses
 
 // ANCHOR: trace
-/// What the ray into cell `path` of the ceiling brings: 0 to 3.
+/// Adds the light of the ray into cell `path` of the ceiling to `colour`: 0 to 3.
 #[reversible]
 fn trace(path: &UInt<3>, colour: &mut UInt<2>) {
     let mut lit: Bool = false;
@@ -25,7 +25,7 @@ fn trace(path: &UInt<3>, colour: &mut UInt<2>) {
     apply! {
         if lit {
             colour += 3;
-            // Light that comes at a slant is spread over more of the floor.
+            // Light at a slant is spread over more of the floor.
             if path == 5 { colour -= 1; }
             if path == 6 { colour -= 2; }
         }
@@ -34,7 +34,7 @@ fn trace(path: &UInt<3>, colour: &mut UInt<2>) {
 // ANCHOR_END: trace
 
 // ANCHOR: colours
-/// The colours of all paths, one after another: as a classical program traces them.
+/// The colours of all paths, one after another, as a classical program traces them.
 pub(crate) fn colours() -> Outcome<Vec<u64>> {
     let program = trace_program(Style::InPlace);
     let paths: Vec<[u64; 2]> = (0..8).map(|path| [path, 0]).collect();
@@ -44,7 +44,7 @@ pub(crate) fn colours() -> Outcome<Vec<u64>> {
 // ANCHOR_END: colours
 
 // ANCHOR: mark
-/// Whether the path is brighter than threshold number `y`.
+/// Flips `good` if the path is brighter than threshold number `y`.
 #[reversible]
 fn mark(path: &UInt<3>, y: &UInt<2>, good: &mut Bool) {
     let mut colour: UInt<2> = 0;
@@ -52,7 +52,7 @@ fn mark(path: &UInt<3>, y: &UInt<2>, good: &mut Bool) {
     apply! { good ^= y < colour; }
 }
 
-/// Of all 32 indices, path by path and for each threshold by threshold: which are good.
+/// For each of the 32 indices, true if it is good: first all paths for threshold 0, and so on.
 pub(crate) fn good() -> Outcome<Vec<bool>> {
     let indices: Vec<[u64; 3]> = (0..32).map(|index| [index & 7, index >> 3, 0]).collect();
     let marked = run::on_gates(&mark_program(Style::InPlace), &indices)?;
@@ -86,7 +86,7 @@ pub(crate) fn signs(oracle: &PhaseOracle) -> Outcome<Vec<f64>> {
         machine.gate(QuantumGate::H(*qubit))?;
     }
     oracle.apply(None, &mut |gate| machine.gate(gate))?;
-    // Nothing but the sign is left: every other qubit is zero again.
+    // Only the sign is left: every other qubit is zero again.
     assert!(machine.excited(&oracle.ancillas())? < 1e-12);
     amplitudes(&mut machine, oracle)
 }
@@ -102,7 +102,7 @@ fn amplitudes(machine: &mut Sparse, oracle: &PhaseOracle) -> Outcome<Vec<f64>> {
 // ANCHOR_END: oracle
 
 // ANCHOR: grover
-/// The amplitudes after so many iterates: sign, then reflection about the mean.
+/// The amplitudes after `iterates` iterates: sign, then reflection about the mean.
 pub(crate) fn amplified(oracle: &PhaseOracle, iterates: u32) -> Outcome<Vec<f64>> {
     let iterate = GroverIterate::new(oracle);
     let mut machine = Sparse::new(iterate.qubits());
@@ -133,7 +133,7 @@ pub(crate) fn count(oracle: &PhaseOracle, seed: u64) -> Outcome<(Vec<f64>, u64)>
 // ANCHOR_END: count
 
 // ANCHOR: report
-/// What each step finds, a line each.
+/// The result of each step, one line each.
 pub(crate) fn report() -> Outcome<Vec<String>> {
     let mut lines = Vec::new();
     let colours = colours()?;

@@ -1,12 +1,12 @@
-//! Questions to a scene's paths: written as reversible functions, answered by quantum counting.
+//! Predicates on a scene's paths: written as reversible functions, counted by quantum counting.
 //!
 //! ```sh
 //! cargo run --release --example predicates
 //! ```
 //!
-//! writes `mirror.png`, the light that arrives by the mirror alone, and says how many paths see the
-//! red wall in it. A face or a material that the scene does not have is an error of the compiler,
-//! and so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
+//! writes `mirror.png`, the light that arrives by the mirror alone, and prints how many paths see
+//! the red wall in it. A face or a material that the scene lacks is an error of the compiler, and
+//! so is a register of another width: try `MATERIALS.rde`, `path.ray9`, or `UInt<5>`.
 
 use qrt::prelude::*;
 
@@ -35,19 +35,19 @@ qrt! {
     }
 }
 
-/// good ^= a ray meets the material `A`, and the next one the material `B`.
+/// Flips `good` if a ray meets the material `A`, and the next one the material `B`.
 #[reversible]
 fn by_way_of<const A: u32, const B: u32>(first: &UInt<3>, second: &UInt<3>, good: &mut Bool) {
     good ^= first == A && second == B;
 }
 
-/// good ^= a ray meets the material `A`.
+/// Flips `good` if a ray meets the material `A`.
 #[reversible]
 fn on<const A: u32>(material: &UInt<3>, good: &mut Bool) {
     good ^= material == A;
 }
 
-/// good ^= the first two rays together are at most four units long, and both meet something.
+/// Flips `good` if the first two rays together are at most four units long, and both meet a face.
 #[reversible]
 fn near(first: &UFixed<4, 11>, second: &UFixed<4, 11>, on: &Bool, good: &mut Bool) {
     let mut way: UFixed<5, 11> = 0;
@@ -62,7 +62,7 @@ const SILVER: u32 = Corner::MATERIALS.silver;
 const RED: u32 = Corner::MATERIALS.red;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // One pixel, at the edge of what the mirror shows of the wall: how many of its paths go on to
+    // One pixel, at the edge of the wall's reflection in the mirror: how many of its paths go on to
     // the red wall?
     let pixel = [28, 12];
     let [x, y] = pixel;
@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
 
-    // What one of these paths is, in the scene's units.
+    // One of these paths, in the scene's units.
     for ray in trace_path::<Corner>(Model::Fixed, one.seed, pixel, 5)?.rays {
         match ray.hit {
             Some(hit) => println!("  {:.2} units to `{}`", hit.distance, hit.name),
@@ -96,7 +96,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
 
-    // The same of the whole film, in floating point and by counting.
+    // The same for the whole film, in floating point and by counting.
     let film = Options {
         model: Model::Real,
         ..Options::default()

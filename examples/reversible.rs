@@ -3,13 +3,13 @@
 use qrt::circuit::lower;
 use qrt::prelude::*;
 
-/// value += 1 + x + x^2 / 2 + x^3 / 6, nearly: exp(x), by Horner's rule in fixed point.
+/// Adds approximately exp(x) to value: 1 + x + x^2 / 2 + x^3 / 6, by Horner's rule in fixed point.
 #[reversible]
 fn exponential(x: &Fixed<1, 12>, value: &mut Fixed<4, 12>) {
     let mut third: Fixed<3, 12> = 0;
     let mut second: Fixed<3, 12> = 0;
     within! {
-        // 1365 / 4096 is a third.
+        // 1365 / 4096 approximates 1/3.
         third += 1 + 0.333251953125 * x;
         second += 1 + wrapping(0.5 * third * x);
     }

@@ -4,8 +4,8 @@
 //! cargo run --release --example scene
 //! ```
 //!
-//! writes `scene.png` and says what the circuit costs. What is wrong with the scene is an error of
-//! the Rust compiler, at the wrong word: try `material: wite`, or a budget of 1,000 qubits.
+//! writes `scene.png` and prints the circuit's cost. The Rust compiler reports an error in the
+//! scene at the wrong word: try `material: wite`, or a budget of 1,000 qubits.
 
 use qrt::prelude::*;
 
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Steps::OPERATIONS
     );
 
-    // One path, and what its registers hold while it is computed.
+    // One path, and the values of its registers while it is computed.
     let pixel = [32, 30];
     let (mut state, id) = State::path::<Steps>(0, pixel, 5)?;
     Steps::within(&mut state, &id, |state, path| {
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
     state.clean()?;
 
-    // All paths of all pixels, by the code that was compiled from the circuit.
+    // All paths of all pixels, by the code compiled from the circuit.
     let options = Options {
         model: Model::Fixed,
         ..Options::default()

@@ -1,4 +1,4 @@
-//! Eight routines of the textbooks, and what they cost: `cargo run --example textbook`.
+//! Eight routines of the textbooks, and their costs: `cargo run --example textbook`.
 
 use qrt::circuit::lower;
 use qrt::prelude::*;
@@ -9,7 +9,7 @@ pub(crate) fn add<const W: u32>(a: &UInt<W>, b: &mut UInt<W>) {
     b += a;
 }
 
-/// Exchanges a and b where the bit is set: W Fredkin gates.
+/// Exchanges a and b if the bit `when` is set: W Fredkin gates.
 #[reversible]
 pub(crate) fn swap_if<const W: u32>(when: &Bool, a: &mut UInt<W>, b: &mut UInt<W>) {
     if when {
@@ -17,11 +17,11 @@ pub(crate) fn swap_if<const W: u32>(when: &Bool, a: &mut UInt<W>, b: &mut UInt<W
     }
 }
 
-/// x = (x + 1) % 11 for x < 11: what has become 11 is exchanged with 0.
+/// x = (x + 1) % 11 for x < 11: adds 1, then exchanges 11 and 0.
 #[reversible]
 pub(crate) fn increment_modulo(x: &mut UInt<4>) {
     x += 1;
-    // Of 0 and 0b1011, all ones of the modulus are equal, and the other bit is 0.
+    // In 0 and in 0b1011 the bits 0, 1 and 3 are equal and bit 2 is 0; no other x shares that.
     x[1] ^= x[0];
     x[3] ^= x[0];
     x[0] ^= !x[1] & !x[2] & !x[3];
@@ -30,7 +30,7 @@ pub(crate) fn increment_modulo(x: &mut UInt<4>) {
 }
 
 /// root += the square root of x, rounded down, and x loses its square: digit by digit, as on paper.
-/// The root is 0 before; x is not negative, and has two bits for each digit, and its sign.
+/// `root` must be 0; x is not negative, and has two bits for each digit, and its sign.
 #[reversible]
 pub(crate) fn square_root<const N: u32, const W: u32>(x: &mut Int<W>, root: &mut UInt<N>) {
     for i in (0..N).rev() {
@@ -52,7 +52,7 @@ pub(crate) fn square_root<const N: u32, const W: u32>(x: &mut Int<W>, root: &mut
     }
 }
 
-/// ones ^= the number of ones in x: adders of three bits each, of which every one takes one AND.
+/// ones ^= the number of ones in x, by adders of three bits, each of which takes one AND.
 #[reversible]
 pub(crate) fn popcount(x: &UInt<8>, ones: &mut UInt<4>) {
     let mut sums: UInt<3> = 0;
@@ -79,14 +79,14 @@ pub(crate) fn popcount(x: &UInt<8>, ones: &mut UInt<4>) {
     }
 }
 
-/// Puts two numbers in order, and says whether they were not.
+/// Sorts two numbers; `swapped` is flipped if they were in the wrong order.
 #[reversible]
 pub(crate) fn sort_two<const W: u32>(a: &mut UInt<W>, b: &mut UInt<W>, swapped: &mut Bool) {
     swapped ^= b < a;
     swap_if(&swapped, &mut a, &mut b);
 }
 
-/// Sorts four numbers by Batcher's network, and keeps the order that it found.
+/// Sorts four numbers by Batcher's network, and keeps the permutation.
 #[reversible]
 pub(crate) fn sort_four<const W: u32>(
     a: &mut UInt<W>,
@@ -121,7 +121,7 @@ pub(crate) fn compare<const W: u32>(a: &UInt<W>, b: &UInt<W>, less: &mut Bool) {
 /// A routine, its program, and the best published count of Toffolis with its source.
 pub(crate) type Row = (&'static str, Program, u64, &'static str);
 
-/// The routines at sizes for which counts are published.
+/// Returns the routines at sizes for which counts are published.
 pub(crate) fn rows() -> Vec<Row> {
     let style = Style::InPlace;
     vec![

@@ -1,9 +1,9 @@
-//! What holds of the macros for any tokens: the fuzzer looks for some for which it does not, and the macros' own tests
-//! try some.
+//! Properties that the macros have for all tokens: the fuzzer searches for a counterexample, and the macros' own
+//! tests try some inputs.
 
 use proc_macro2::TokenStream;
 
-/// Expands text as `qrt!` and as `#[reversible]` would: what comes out are items, if only errors.
+/// Expands text as `qrt!` and as `#[reversible]` would: each expansion parses as items, if only errors.
 pub(crate) fn tokens(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
@@ -12,7 +12,7 @@ pub(crate) fn tokens(data: &[u8]) {
         return;
     };
     let mut expanded = vec![crate::expand::expand(tokens.clone())];
-    // An attribute is on an item, or the compiler has said so.
+    // The compiler accepts an attribute only on an item.
     if syn::parse2::<syn::Item>(tokens.clone()).is_ok() {
         expanded.push(crate::reversible::expand(&TokenStream::new(), tokens));
     }

@@ -1,10 +1,10 @@
-//! Numbers for tests, the same each time.
+//! Pseudorandom numbers for tests, the same in each run.
 
-/// Numbers as good as random.
+/// A linear congruential generator of pseudorandom numbers.
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    /// One below `count`, or 0.
+    /// Returns a number below `count`, or 0 if `count` is 0.
     pub(crate) fn below(&mut self, count: usize) -> usize {
         self.0 = self
             .0

@@ -1,5 +1,5 @@
-//! What holds for any bytes: the fuzzer looks for some for which it does not, and `cargo test --test scenes`
-//! tries those of the corpora, and changes of them.
+//! Properties that hold for all bytes: the fuzzer searches for a counterexample, and `cargo test --test scenes`
+//! tries the inputs in the corpora, and mutations of them.
 
 use qrt_circuit::export::{Format, write_program};
 use qrt_circuit::{
@@ -15,8 +15,8 @@ use qrt_runtime::render::Merge;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-/// Reads a scene. What is refused has an error that can be shown; what is read can be printed, and what is
-/// printed is the same scene.
+/// Reads a scene. An error can be displayed; a valid scene can be printed, and the printed text reads back as the
+/// same scene.
 pub(crate) fn scene(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
@@ -24,7 +24,7 @@ pub(crate) fn scene(data: &[u8]) {
     let _ = read(text, &[]);
 }
 
-/// The polygons of a scene, or the report of what is wrong with it.
+/// Returns the polygons of a scene, or the report of its errors.
 fn read(text: &str, files: &[(&str, &[u8])]) -> Result<Vec<Polygon>, String> {
     match parse_with(text, "any.yaml", &[], Files::held(files)) {
         Ok(loaded) => {
@@ -45,8 +45,8 @@ fn read(text: &str, files: &[(&str, &[u8])]) -> Result<Vec<Polygon>, String> {
     }
 }
 
-/// Reads a mesh and, after a byte 0, its material library. However their lines end, they are the same mesh, or have
-/// the same faults at the same lines.
+/// Reads a mesh and, after a byte 0, its material library. Other line ends give the same mesh, or the same faults at
+/// the same lines.
 pub(crate) fn mesh(data: &[u8]) {
     const SCENE: &str = "
 name: any
@@ -75,8 +75,8 @@ sampling: { path_bits: 2 }
     }
 }
 
-/// Reads an expression. Its text as it is printed is the same expression; values lie in the range that interval
-/// arithmetic gives, before and after it is simplified.
+/// Parses an expression. Its printed text parses to the same expression; its values lie in the range that interval
+/// arithmetic gives, before and after simplification.
 pub(crate) fn expression(data: &[u8]) {
     let Some(expression) = std::str::from_utf8(data)
         .ok()
@@ -117,7 +117,7 @@ pub(crate) fn expression(data: &[u8]) {
     }
 }
 
-/// Bytes one after another, zeros after the last.
+/// A stream of bytes that continues with zeros after the last one.
 struct Bytes<'a>(std::slice::Iter<'a, u8>);
 
 impl Bytes<'_> {
@@ -155,7 +155,7 @@ impl Bytes<'_> {
     }
 }
 
-/// A program of a few operations, and what it computes.
+/// A program of a few operations, with its registers.
 struct Made {
     program: Program,
     widths: Vec<u32>,
@@ -222,8 +222,8 @@ fn made(bytes: &mut Bytes<'_>) -> Made {
     }
 }
 
-/// Records a program, runs it by its definition and by its gates on some inputs, and undoes it: both hold the
-/// same, and nothing but the inputs is left.
+/// Records a program, and runs and uncomputes it by its definition and by its gates on some inputs: both give the
+/// same values, and the gates leave only the inputs.
 pub(crate) fn program(data: &[u8]) {
     let mut bytes = Bytes(data.iter());
     let Made {
@@ -246,8 +246,8 @@ pub(crate) fn program(data: &[u8]) {
     }
 }
 
-/// Writes a program whose registers have any names, in both languages: what is written is a text of that language
-/// with the gates of the circuit, one after another, on the qubits that they are on.
+/// Writes a program whose registers have arbitrary names, in both languages. The text is valid in that language and
+/// has the circuit's gates in their order, on the right qubits.
 pub(crate) fn openqasm(data: &[u8]) {
     let mut bytes = Bytes(data.iter());
     let Made { mut program, .. } = made(&mut bytes);
@@ -276,7 +276,7 @@ fn read_openqasm(text: &str, format: Format, circuit: &Circuit) {
     assert_eq!(lines.next(), Some(version));
     assert_eq!(lines.next(), Some(library));
     let mut sizes: HashMap<&str, usize> = HashMap::new();
-    // Which qubit of the circuit each of the text's is, as far as gates have told.
+    // Maps each qubit of the text to the circuit's, as far as the gates before have shown it.
     let mut places: HashMap<(&str, usize), Qubit> = HashMap::new();
     let mut gates = circuit.gates.iter();
     for line in lines {
@@ -341,7 +341,7 @@ fn read_openqasm(text: &str, format: Format, circuit: &Circuit) {
     assert_eq!(qubits.len(), places.len(), "two names for one qubit");
 }
 
-/// Some of the words and gates of OpenQASM, which no register is called.
+/// Some of the words and gates of OpenQASM, which the export must not use as the name of a register.
 const WORDS: [&str; 14] = [
     "input", "output", "bit", "qubit", "qreg", "creg", "gate", "if", "in", "measure", "reset",
     "cx", "swap", "pi",
@@ -400,7 +400,7 @@ fn follow(
     assert!(bits == before, "{program:?} on {values:?}");
 }
 
-/// The sum of a record (CRC-32 of ISO-HDLC).
+/// Returns the checksum of a record (CRC-32 of ISO-HDLC).
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |sum, byte| {
         (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
@@ -409,8 +409,8 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
-/// Opens a checkpoint that has, by its first byte, some records behind a right header, a header of any words, any
-/// body of a header, or any bytes at all.
+/// Opens a checkpoint. Its first byte selects the test: records behind a valid header, a header of arbitrary words,
+/// an arbitrary body of a header, or arbitrary bytes.
 pub(crate) fn checkpoint(data: &[u8]) {
     let Some((kind, data)) = data.split_first() else {
         return;
@@ -422,7 +422,7 @@ pub(crate) fn checkpoint(data: &[u8]) {
         1 => header_of_words(&path, data),
         2 => {
             let mut bytes = started(&path, &render());
-            // Behind them stands how long the body is.
+            // The length of the body follows.
             bytes.truncate(MAGIC_AND_VERSION);
             bytes.extend((data.len() as u32).to_le_bytes());
             bytes.extend(data);
@@ -435,16 +435,16 @@ pub(crate) fn checkpoint(data: &[u8]) {
     let _ = std::fs::remove_file(&path);
 }
 
-/// A file of this thread's own.
+/// Returns the path of a file that only this thread uses.
 fn own_file() -> PathBuf {
     let (process, thread) = (std::process::id(), std::thread::current().id());
     std::env::temp_dir().join(format!("qrt-fuzz-{process}-{thread:?}.qrt-partial"))
 }
 
-/// Bytes that checkpoints of this format begin with.
+/// Number of bytes of the magic number and the version, with which checkpoints begin.
 const MAGIC_AND_VERSION: usize = 12;
 
-/// The render that asks.
+/// Returns the header of the render that opens the checkpoints.
 fn render() -> Header {
     Header {
         scene_hash: "any".into(),
@@ -456,13 +456,13 @@ fn render() -> Header {
     }
 }
 
-/// The bytes of a checkpoint without records.
+/// Returns the bytes of a checkpoint without records.
 fn started(path: &Path, header: &Header) -> Vec<u8> {
     drop(Checkpoint::create(path, header).expect("a file can be made"));
     std::fs::read(path).expect("it is there")
 }
 
-/// A checkpoint of the render that asks, without records.
+/// Returns a checkpoint with the header of `render()`, without records.
 pub(crate) fn header_of_the_render() -> Vec<u8> {
     let path = own_file();
     let bytes = started(&path, &render());
@@ -470,7 +470,7 @@ pub(crate) fn header_of_the_render() -> Vec<u8> {
     bytes
 }
 
-/// A header of any words comes back, and is no other's.
+/// Checks that a header of arbitrary words reads back, and that no other render accepts it.
 fn header_of_words(path: &Path, data: &[u8]) {
     let mut words = data.split(|byte| *byte == 255).map(|word| {
         let word = String::from_utf8_lossy(word);
@@ -497,7 +497,7 @@ fn header_of_words(path: &Path, data: &[u8]) {
     let (checkpoint, tiles) = Checkpoint::open(path, &header).expect("it is this render's");
     drop(checkpoint);
     assert!(tiles.is_empty());
-    // It begins no checkpoint of another's, so that this is no file of one that was killed as it began.
+    // The bytes are not a prefix of a valid checkpoint, so this is not a file that a kill cut short.
     let other = Checkpoint::open(path, &render());
     match other {
         Ok(_) => assert_eq!(header, render()),
@@ -507,7 +507,7 @@ fn header_of_words(path: &Path, data: &[u8]) {
     assert_eq!(std::fs::read(path).expect("it is there"), bytes);
 }
 
-/// A file of any bytes is refused and left as it was, unless it is a checkpoint of this render.
+/// Checks that a file of arbitrary bytes is refused and left unchanged, unless it is a checkpoint of this render.
 fn strange(path: &Path, bytes: &[u8]) {
     let header = render();
     let right = started(path, &header);
@@ -524,7 +524,7 @@ fn strange(path: &Path, bytes: &[u8]) {
             assert!(!begins, "{error}");
             assert!(!error.to_string().is_empty());
             assert_eq!(std::fs::read(path).expect("it is there"), bytes);
-            // Nor does one go on from it that begins anew.
+            // A render that starts from the beginning refuses the file, too.
             let begun = Checkpoint::create(path, &header);
             let foreign = matches!(begun, Err(CheckpointError::Foreign { .. }));
             assert_eq!(foreign, !bytes.starts_with(&right[..8]), "{begun:?}");
@@ -532,12 +532,12 @@ fn strange(path: &Path, bytes: &[u8]) {
             assert_eq!(std::fs::read(path).expect("it is there"), bytes);
         }
     }
-    // Nor is it a part of a picture.
+    // The file is not a part of a picture, either.
     assert!(Merge::default().add("any", bytes).is_err());
 }
 
-/// Records behind a right header, each up to a byte 255 and sealed as it must be. What is read lies on the film, and
-/// is there again after something was added.
+/// Appends records to a valid header, each up to a byte 255 and with its checksum. The tiles that are read lie on the
+/// film, and are still there after another tile was appended.
 fn records(path: &Path, data: &[u8]) {
     let header = render();
     let mut bytes = started(path, &header);
@@ -575,7 +575,7 @@ fn records(path: &Path, data: &[u8]) {
     drop(checkpoint);
     tiles.push(new);
     let (mut checkpoint, again) = Checkpoint::open(path, &header).expect("it is one");
-    // Colours may be no numbers, which equal nothing.
+    // Colours may be NaN, which does not equal itself, so the test compares the printed text.
     assert_eq!(format!("{again:?}"), format!("{tiles:?}"));
     let mut left = parts;
     left.retain(|part| part.pixel != [2, 1]);

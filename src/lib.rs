@@ -1,7 +1,7 @@
 //! Quantum ray tracing: scenes as countable sets of paths.
 //!
 // docs/gallery/lit-box-gates.png as a JPEG of 9 KB, in the text itself: rustdoc copies no pictures, and the
-// pages load nothing from elsewhere. Nobody but rustdoc reads it.
+// pages load nothing from elsewhere. Only rustdoc reads it.
 #![cfg_attr(doc, doc = include_str!("picture.html"))]
 //!
 //! qrt compiles a scene into a reversible quantum circuit that traces all its light paths in
@@ -16,7 +16,7 @@
 //!   ([doi:10.1142/S2010324722500308](https://doi.org/10.1142/S2010324722500308)). The framework
 //!   works, once [eleven errata](https://github.com/qrt-rs/qrt/blob/main/book/src/errata.md) are
 //!   mended.
-//! * **It has a price, and qrt tells it.** A 64 x 64 picture of the Cornell box without sampled
+//! * **It has a price, and qrt reports it.** A 64 x 64 picture of the Cornell box without sampled
 //!   lamps, with an error of 1 %, would take 217 million physical qubits for 6.1 years.
 //!
 //! In a clone of the [repository](https://github.com/qrt-rs/qrt) one command renders a picture,
@@ -68,18 +68,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The library's features, of which the default, `cli`, has all: `png` and `exr` write pictures of these
+//! The feature `cli`, which is the default, contains all others: `png` and `exr` write pictures of these
 //! kinds, `serde` reads and writes scenes and their parts. A crate that sets `default-features = false`
-//! builds none of what they need.
+//! builds none of their dependencies.
 //!
-//! [`core`] holds what needs no machine: the scene, its checks, the sequences of paths and the
-//! tracer. [`runtime`] holds what runs: machines, counting, rendering, files. [`drawing`] draws.
+//! [`core`] holds the code that needs no machine: the scene, its checks, the sequences of paths and
+//! the tracer. [`runtime`] holds the code that runs: machines, counting, rendering, files. [`drawing`] draws.
 //!
 //! # Where to go from here
 //!
-//! * [`prelude`]: what it takes to load a scene, render it and save the picture;
+//! * [`prelude`]: the names to load a scene, render it and save the picture;
 //! * [`qrt!`]: a scene as a type, with its circuit's cost as constants;
-//! * [`reversible`]: a function that becomes gates, with the inverse that nobody wrote;
+//! * [`reversible`]: a function that becomes gates, with a generated inverse;
 //! * [`circuit::quantum`]: phase oracles, Grover's iterate and counting, gate by gate;
 //! * [the book](https://github.com/qrt-rs/qrt/blob/main/book/src/introduction.md), from the
 //!   rendering equation to a counted picture, with each of the paper's equations beside its code and
@@ -89,7 +89,7 @@
 
 #![forbid(unsafe_code)]
 
-/// The README's example is a test.
+/// Tests the README's examples.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

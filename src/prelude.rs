@@ -1,4 +1,4 @@
-//! What it takes to write a scene or load one, render it, count its paths and save the picture.
+//! The names to import to write or load a scene, render it, count its paths and save the picture.
 
 /// Registers with formats as types.
 ///
@@ -45,7 +45,7 @@ pub use qrt_circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
 /// # Ok::<(), run::RunError>(())
 /// ```
 pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
-/// A scene from a file or a text, with everything that is wrong with it.
+/// Reads a scene from a file or a text, and reports all of its errors at once.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -109,7 +109,7 @@ pub use qrt_core::oracle::compiled::CompiledOracle;
 /// assert_eq!(faces::<Glow>(), 1);
 /// ```
 pub use qrt_core::oracle::paths::PathScene;
-/// A scene's circuit, compiled where the program runs, and one of a pixel.
+/// A scene's circuit, compiled at run time, and the program of one pixel.
 ///
 /// ```
 /// use qrt::core::{oracle, scene::Emitter};
@@ -184,7 +184,7 @@ pub use qrt_core::scene::{Estimator, Scene, SceneBuilder};
 /// assert!(report.render(false).contains("--> seven.yaml:1:7"));
 /// ```
 pub use qrt_core::syntax::Report;
-/// A checked scene, or all that is wrong with it.
+/// A checked scene, or all of its errors.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -199,7 +199,7 @@ pub use qrt_core::syntax::Report;
 /// ```
 pub use qrt_core::valid::{InvalidScene, ValidScene, validate};
 pub use qrt_macros::{qrt, reversible};
-/// An estimator of one's own.
+/// A user-defined estimator.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -222,7 +222,7 @@ pub use qrt_macros::{qrt, reversible};
 /// # Ok::<(), EstimatorError>(())
 /// ```
 pub use qrt_runtime::estimators::AmplitudeEstimator;
-/// Pictures and counts, to files and to whatever takes bytes.
+/// Writes pictures and counts to files and to any writer.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -254,7 +254,7 @@ pub use qrt_runtime::estimators::AmplitudeEstimator;
 pub use qrt_runtime::image::{
     Encoding, Image, ImageError, Metadata, save, write_counts, write_counts_to, write_to,
 };
-/// Programs, run on each machine: see [the module](run).
+/// Runs programs on each machine: see [the module](run).
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -272,7 +272,7 @@ pub use qrt_runtime::image::{
 /// # Ok::<(), run::RunError>(())
 /// ```
 pub use qrt_runtime::machines::run;
-/// One path, step by step, and code for many.
+/// Runs one path step by step, and compiles code for many paths.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -301,7 +301,7 @@ pub use qrt_runtime::machines::run;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_runtime::machines::{NativeOracle, State};
-/// Questions to the paths of a scene.
+/// Predicates on the paths of a scene: counts and renders those that satisfy them.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -333,7 +333,7 @@ pub use qrt_runtime::machines::{NativeOracle, State};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
-/// From a scene to a picture.
+/// Renders a scene to a picture.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -367,7 +367,7 @@ pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
 pub use qrt_runtime::render::{
     CompiledError, Model, Options, OwnEstimator, RenderError, Rendered, render, render_compiled,
 };
-/// Threads, and how far they are.
+/// The number of threads, and their progress.
 ///
 /// ```
 /// use qrt::prelude::*;

@@ -1,4 +1,4 @@
-//! The sources are built as ARCHITECTURE.md says.
+//! Checks that the sources are built as ARCHITECTURE.md says.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod architecture {

@@ -1,8 +1,8 @@
-//! What the book says is so.
+//! Checks the claims of the book.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
-// What the book's tool reads, its tests read in the same way.
+// These tests parse the book with the modules of the book's tool.
 #[allow(dead_code, reason = "the tool's own parts of it")]
 #[path = "../book/tool/src/complaint.rs"]
 mod complaint;

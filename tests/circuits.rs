@@ -1,4 +1,4 @@
-//! A scene's circuit: right, checked, no larger than the scene requires, and exported as it is.
+//! Tests of a scene's circuit: it is correct, checked, no larger than the scene requires, and exported as it is.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

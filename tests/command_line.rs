@@ -1,4 +1,4 @@
-//! The commands as scripts see them.
+//! Tests of the commands from the outside.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

@@ -1,6 +1,6 @@
-//! What would be a wrong circuit does not compile: one short program a rule in `tests/ui`, each
-//! with the compiler's words beside it. After a deliberate change of the words,
-//! `TRYBUILD=overwrite cargo test --test compile_fail` writes them anew.
+//! Tests that wrong circuits do not compile: one short program per rule in `tests/ui`, each with the
+//! compiler's message beside it. After a deliberate change of a message,
+//! `TRYBUILD=overwrite cargo test --test compile_fail` writes them again.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
@@ -9,7 +9,7 @@ use std::path::Path;
 
 #[test]
 fn wrong_programs_do_not_compile() {
-    // The programs are compiled as a package of their own, and `qrt!` looks for files beside its
+    // trybuild compiles the programs as a package of their own, and `qrt!` looks for files beside its
     // manifest.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let scenes = target.join("tests/trybuild/qrt/scenes");
@@ -29,7 +29,7 @@ fn every_code_of_the_macros_is_shown_by_some_program() {
         if path.extension().is_some_and(|end| end == "stderr") {
             all += &std::fs::read_to_string(&path).unwrap();
         }
-        // None is left of a program that is gone.
+        // No message may remain of a program that is gone.
         assert!(
             path.is_dir() || path.with_extension("rs").exists(),
             "{}",
@@ -43,8 +43,8 @@ fn every_code_of_the_macros_is_shown_by_some_program() {
     assert!(unseen.is_empty(), "{unseen:#?}");
 }
 
-/// What the language itself refuses by the types of registers, without a word of qrt's: changing what is lent to
-/// be read, keeping what is lent for a while, a register of another width, and a function where a macro stands.
+/// Programs that the language refuses by the types of registers, without a message of qrt's: changing a shared
+/// reference, keeping a reference, a register of another width, and a function in place of a macro.
 const OF_THE_LANGUAGE: [&str; 6] = [
     "compiled_id_changes_within",
     "compiled_register_is_changed",

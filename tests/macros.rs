@@ -1,5 +1,5 @@
-//! `qrt!` and `#[reversible]`: what they make is the scene, the circuit and the function that was
-//! written.
+//! Tests of `qrt!` and `#[reversible]`: their results are the scene, the circuit and the function that
+//! were written.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod macros {

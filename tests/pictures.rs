@@ -1,4 +1,4 @@
-//! Pictures: those of physics and of other renderers, however they are computed.
+//! Tests of pictures against physics and against other renderers, by every way to compute them.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

@@ -1,4 +1,4 @@
-//! Scenes as text: what is accepted and what it means, what is refused and in which words.
+//! Tests of scenes as text: valid scenes with their meaning, and faulty ones with their errors.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -20,7 +20,7 @@ mod scenes {
     mod serde_agrees_with_yaml;
     mod yaml_agrees_with_serde_yaml;
 
-    /// So many cases, or as many as `PROPTEST_CASES` says.
+    /// Returns a configuration of `usual` cases, or of the number in `PROPTEST_CASES`.
     fn cases(usual: u32) -> ProptestConfig {
         let asked = std::env::var("PROPTEST_CASES");
         let asked = asked.ok().and_then(|text| text.parse().ok());

@@ -31,7 +31,7 @@ fn icosahedron() -> Vec<Vec<Point>> {
     ];
     let corners = signs.map(|(a, b)| [[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     let corners = corners.concat();
-    // Edges are 2 long, and no other corners are as near.
+    // Edges are 2 long, and all other pairs of corners are farther apart.
     let near = |a: &Point, b: &Point| {
         let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
         square < 4.1
@@ -82,13 +82,13 @@ impl Solid {
         }
     }
 
-    /// How many faces it has.
+    /// Returns its number of faces.
     pub(crate) fn count(self) -> usize {
         self.faces().len()
     }
 }
 
-/// A floor, a lamp and, between them, a body turned so that no face is level; paths of three rays.
+/// Returns a floor, a lamp and, between them, a body turned so that no face is level; paths of three rays.
 pub(crate) fn scene(solid: Option<Solid>) -> String {
     let mut text = String::from(
         "name: body\n\

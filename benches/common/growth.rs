@@ -1,9 +1,9 @@
-//! How a cost grows: scenes of any number of quads, and the exponents of what is measured.
+//! Growth of costs: scenes of any number of quads, and fitted exponents.
 
 use qrt::drawing::Fit;
 use std::fmt::Write;
 
-/// Numbers of chance in [-1, 1), the same from every run.
+/// Returns a generator of pseudorandom numbers in [-1, 1), the same in every run.
 pub(crate) fn chance(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
@@ -13,8 +13,8 @@ pub(crate) fn chance(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A scene of `quads` parallelograms, one of them a lamp and one the floor, seen along paths of
-/// three rays. The first few of a larger scene are those of a smaller one.
+/// Returns a scene of `quads` parallelograms, one of them a lamp and one the floor, seen along paths of
+/// three rays. A smaller scene is a prefix of a larger one.
 pub(crate) fn quads(quads: u32) -> String {
     let mut text = String::from(
         "name: quads\n\
@@ -56,7 +56,7 @@ pub(crate) fn quads(quads: u32) -> String {
     text
 }
 
-/// The power of x that fits points (x, y) best; its residual is a fraction of y.
+/// Fits a power of x to points (x, y); the residual is a fraction of y.
 pub(crate) fn fit(points: impl Iterator<Item = [f64; 2]>) -> Fit {
     Fit::of(points.map(|[x, y]| (x.ln(), y.ln()))).expect("points of several x")
 }

@@ -10,10 +10,10 @@ const WINDING: f64 = 0.12;
 /// Radius of the knot's own tube.
 const TUBE: f64 = 0.065;
 
-/// The knot that goes twice around the axis while it goes three times around the tube, as an OBJ
-/// file: `2 * around * along` triangles that face outward, in a box of about 1 x 0.4 x 1 around the
-/// y axis, resting on y = 0. `around` corners make a section of the tube, `along` sections the
-/// knot; fewer than three of either are none.
+/// Returns a knot, as an OBJ file, that goes twice around the axis while it goes three times around the
+/// tube. It has `2 * around * along` triangles that face outward, in a box of about 1 x 0.4 x 1 around the
+/// y axis, resting on y = 0. `around` corners make a section of the tube, `along` sections the knot;
+/// with fewer than three of either, no knot results.
 pub(crate) fn torus_knot(around: u32, along: u32) -> String {
     let mut vertices = Vec::new();
     for section in 0..along {
@@ -22,7 +22,7 @@ pub(crate) fn torus_knot(around: u32, along: u32) -> String {
         let (s3, c3) = libm::sincos(3.0 * t);
         let radius = TORUS + WINDING * c3;
         let centre = [radius * c2, WINDING * s3, radius * s2];
-        // The torus's normal, the knot's tangent, and what is at right angles to both.
+        // The torus's normal, the knot's tangent, and the vector at right angles to both.
         let normal = [c3 * c2, s3, c3 * s2];
         let shrink = -3.0 * WINDING * s3;
         let tangent = [

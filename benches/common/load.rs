@@ -1,12 +1,12 @@
-//! Scenes of files.
+//! Loads scenes from files.
 
 use qrt::core::front;
 use qrt::core::valid::ValidScene;
 use std::path::Path;
 
-/// The scene at `path` in the repository `root`.
+/// Loads the scene at `path` in the repository `root`, with the overrides `sets`.
 pub(crate) fn load(root: &Path, path: &str, sets: &[String]) -> ValidScene {
-    // A mesh that a bench makes is elsewhere.
+    // A bench writes its meshes to the temporary folder.
     let allowed = [std::env::temp_dir()];
     front::load_with(&root.join(path), sets, |files| files.allowing(&allowed))
         .unwrap_or_else(|report| panic!("{report}"))

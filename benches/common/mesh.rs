@@ -1,4 +1,4 @@
-//! A mesh of 65,536 triangles, and how it is looked at.
+//! A mesh of 65,536 triangles, and its views.
 
 use super::knot;
 use super::load::load;
@@ -8,8 +8,8 @@ use std::path::Path;
 /// Pixels along each side of the film.
 pub(crate) const SIDE: u32 = 32;
 
-/// A scene with a knot, and how ours stands in it: the view of the independent renderer's own mesh
-/// scene, whose speed relative to its box is the one to compare with, and a close one.
+/// A scene with a knot, and the rotation and translation of this mesh in it: the view of the independent
+/// renderer's own mesh scene, whose throughput relative to its box is the one to compare with, and a close one.
 pub(crate) const VIEW: [&str; 3] = [
     "tests/references/torusknot8k.yaml",
     "[90, 0, 0]",
@@ -17,7 +17,7 @@ pub(crate) const VIEW: [&str; 3] = [
 ];
 pub(crate) const CLOSE: [&str; 3] = ["scenes-yaml/knot.yaml", "[0, 30, 0]", "[0, 0, 0]"];
 
-/// Corners of a section of the knot's tube, and sections, for all of its triangles.
+/// Corners of a section of the knot's tube, and sections, of the whole mesh.
 pub(crate) const WHOLE: [u32; 2] = [32, 1024];
 
 pub(crate) fn sets(depth: usize, path_bits: u32) -> Vec<String> {
@@ -30,7 +30,7 @@ pub(crate) fn sets(depth: usize, path_bits: u32) -> Vec<String> {
     ]
 }
 
-/// A knot of `2 * around * along` triangles, traced along paths of four rays, under `keep`.
+/// Returns a knot of `2 * around * along` triangles, traced along paths of four rays, under `keep`.
 pub(crate) fn mesh(
     root: &Path,
     view: [&str; 3],
@@ -45,7 +45,7 @@ pub(crate) fn mesh(
     with_obj(root, scene, &knot::torus_knot(around, along), sets)
 }
 
-/// The scene at `path` with this mesh in the knot's place.
+/// Loads the scene at `path` with this mesh in the knot's place.
 pub(crate) fn with_obj(root: &Path, path: &str, mesh: &str, mut sets: Vec<String>) -> ValidScene {
     let folder = std::env::temp_dir().join(format!("qrt-bench-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a temporary folder");

@@ -1,7 +1,7 @@
-//! The processor's time.
+//! Processor time.
 
-/// Seconds that all threads of this process have worked so far, where the system tells, else those
-/// that have passed: what others do at the same time does not count.
+/// Returns the seconds that all threads of this process have worked so far, where the system reports them,
+/// so that other processes do not count; else the seconds that have passed.
 #[cfg(unix)]
 pub(crate) fn seconds() -> f64 {
     use rustix::time::{ClockId, clock_gettime};

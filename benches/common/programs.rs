@@ -1,4 +1,4 @@
-//! Programs of operations of given kinds, on operands of chance.
+//! Programs of operations of given kinds, on random operands.
 
 use qrt::circuit::{
     Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Style, Type, Word,
@@ -21,10 +21,10 @@ pub(crate) const MIXES: [(&str, &str); 12] = [
     ("mixed", "++*?<&nkc+*?++*+<&+*t"),
 ];
 
-/// Those that are a few instructions on a lane.
+/// Kinds that take a few instructions on a lane.
 pub(crate) const SIMPLE: [&str; 6] = ["add", "add constant", "less", "and", "select", "negate"];
 
-/// Operations of the kinds asked for, before those that gather what nothing else reads.
+/// Number of operations of the given kinds, before the ones that gather unread results.
 const OPS: usize = 3000;
 
 struct Maker {
@@ -35,7 +35,7 @@ struct Maker {
     state: u64,
 }
 
-/// A program of numbers of `width` bits, and what of it is to be read: it depends on all.
+/// Returns a program on numbers of `width` bits, and the words to read, which depend on all operations.
 pub(crate) fn program(width: u32, kinds: &str) -> (Program, [Word; 2]) {
     let mut maker = Maker {
         program: Program::default(),
@@ -118,7 +118,7 @@ impl Maker {
         }
     }
 
-    /// One of the latest, mostly.
+    /// Returns one of the latest registers, mostly.
     fn old(&mut self, truths: bool) -> RegisterId {
         let far = self.draw().is_multiple_of(4);
         let draw = self.draw() as usize;
@@ -231,7 +231,7 @@ impl Maker {
         self.push(op);
     }
 
-    /// Sums up what nothing reads, so that all of it is needed.
+    /// Adds up the registers that no operation reads, so that the program needs all of them.
     fn gather(&mut self) {
         let mut read = vec![false; self.program.registers.len()];
         for op in &self.program.ops {

@@ -1,8 +1,8 @@
-//! The promises of a bench: each is told as it is kept or broken, and one that is broken fails it.
+//! The promises of a bench: prints each as kept or broken, and fails the bench if one is broken.
 
 use std::process::ExitCode;
 
-/// Promises that were judged.
+/// The verdict on all promises so far.
 pub(crate) struct Promises {
     kept: bool,
 }
@@ -12,13 +12,13 @@ impl Promises {
         Self { kept: true }
     }
 
-    /// Tells whether a promise is kept.
+    /// Records and prints whether a promise is kept.
     pub(crate) fn judge(&mut self, what: &str, kept: bool) {
         println!("{} {what}", if kept { "kept  " } else { "BROKEN" });
         self.kept &= kept;
     }
 
-    /// What the bench exits with.
+    /// Returns the exit code of the bench.
     pub(crate) fn exit(&self) -> ExitCode {
         ExitCode::from(u8::from(!self.kept))
     }

@@ -1,6 +1,6 @@
 //! Error against time.
 
-/// What so many samples a pixel cost, and how far from the truth they are.
+/// Error and cost of a number of samples a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     pub(crate) samples: u64,
@@ -16,8 +16,8 @@ pub(crate) struct Curve {
 }
 
 impl Curve {
-    /// Seconds to an error, between points on logarithmic axes: where the error falls below it for
-    /// good. None if it never does, or if no point lies above it.
+    /// Returns the seconds to an error, between points on logarithmic axes: where the error falls below it
+    /// for good. `None` if it never does, or if no point lies above it.
     pub(crate) fn seconds_to(&self, error: f64) -> Option<f64> {
         let above = self.points.iter().rposition(|point| point.error > error)?;
         let (a, b) = (self.points[above], self.points.get(above + 1)?);

@@ -1,4 +1,4 @@
-//! Mitsuba 3, by way of `benches/peers/path_tracing.py`.
+//! Runs Mitsuba 3 through `benches/peers/path_tracing.py`.
 
 use super::curve::{Curve, Point};
 use qrt_core::front;
@@ -8,8 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Pictures of the reference data with which its pictures of exported scenes are compared: of so many
-/// rays and pixels a side.
+/// Pictures of the reference data, with the scenes whose exports Mitsuba renders to compare with them.
 const REFERENCES: [(&str, &str); 2] = [
     ("cornell_D3_16", "cornell"),
     ("torusknot8k_D3_16", "torusknot8k"),
@@ -20,34 +19,34 @@ const REFERENCE: [&str; 3] = [
     "film.height=16",
 ];
 
-/// What was measured.
+/// The measurements of Mitsuba.
 pub(crate) struct Mitsuba {
     pub(crate) version: String,
     pub(crate) variant: String,
     pub(crate) truth: Truth,
     /// The truth's standard error, as a fraction of its mean.
     pub(crate) truth_error: f64,
-    /// By sampler.
+    /// Curves by sampler.
     pub(crate) curves: Vec<Curve>,
 }
 
-/// What pictures are compared with.
+/// The reference picture.
 pub(crate) struct Truth {
-    /// From the top left, row by row.
+    /// Pixels from the top left, row by row.
     picture: Vec<[f64; 3]>,
-    /// Which pixels count.
+    /// Indices of the pixels that count.
     judged: Vec<usize>,
-    /// The mean square of its own error.
+    /// Mean square of its own error.
     variance: f64,
 }
 
 impl Truth {
-    /// The mean over the pixels that count.
+    /// Returns the mean over the pixels that count.
     pub(crate) fn mean(&self) -> f64 {
         self.average(|pixel, channel| self.picture[pixel][channel])
     }
 
-    /// The mean square of a picture's differences, without those that are the truth's.
+    /// Returns the mean square of a picture's differences, less the variance of the truth itself.
     pub(crate) fn squared_error(&self, picture: &[[f64; 3]]) -> f64 {
         let square = |pixel: usize, channel: usize| {
             let difference = picture[pixel][channel] - self.picture[pixel][channel];
@@ -66,7 +65,7 @@ impl Truth {
     }
 }
 
-/// How far its pictures of reference scenes are from the data, in standard errors.
+/// Compares Mitsuba's pictures of reference scenes with the data; distances in standard errors.
 pub(crate) fn references() -> Result<Vec<(&'static str, f64)>, String> {
     let compare = |(name, scene): (&'static str, &str)| {
         let folder = root().join("tests/references");
@@ -79,7 +78,7 @@ pub(crate) fn references() -> Result<Vec<(&'static str, f64)>, String> {
     REFERENCES.into_iter().map(compare).collect()
 }
 
-/// What it takes for a scene of `scenes-yaml`.
+/// Measures Mitsuba on a scene of `scenes-yaml`.
 pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<Mitsuba, String> {
     let scene = exported(&root().join(format!("scenes-yaml/{name}.yaml")), &[])?;
     let cache = target().join("equal_error");
@@ -138,12 +137,12 @@ pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<M
     })
 }
 
-/// A scene as Mitsuba reads it: the file.
+/// Writes a scene for Mitsuba, and returns the file.
 fn exported(scene: &Path, sets: &[String]) -> Result<PathBuf, String> {
     let loaded = front::load(scene, sets).map_err(|report| report.to_string())?;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
     let exported = mitsuba::export(&loaded.valid, &stem).map_err(|error| error.to_string())?;
-    // A folder for each, as one scene may be exported in two ways.
+    // Each scene has its own folder, as one scene may be exported in two ways.
     let folder = target().join(format!("mitsuba-{}", loaded.valid.fingerprint()));
     let written = || {
         fs::create_dir_all(&folder)?;
@@ -168,7 +167,7 @@ fn number(found: &Value, key: &str) -> Result<f64, String> {
     found[key].as_f64().ok_or(format!("no {key}"))
 }
 
-/// What the script prints; if it fails, the last that it says.
+/// Runs the script and returns its output; if it fails, the last line of its errors.
 fn run(arguments: &[&Path]) -> Result<Value, String> {
     let output = Command::new("python3")
         .arg(root().join("benches/peers/path_tracing.py"))

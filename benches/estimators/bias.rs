@@ -1,6 +1,6 @@
 //! The mean error of every estimator: the part of the error that a picture's average keeps.
 //!
-//! The yardstick is the standard error of a picture's mean: a pixel's RMSE over the square root of
+//! The unit is the standard error of a picture's mean: a pixel's RMSE over the square root of
 //! the pixels, here 64 x 64. A bias below it cannot be seen in one picture's brightness.
 
 use super::expected::{Expected, Verdicts};
@@ -17,20 +17,20 @@ use std::path::Path;
 const AMPLITUDES: [f64; 8] = [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5];
 /// Bits of the phase registers whose queries may be used.
 const REGISTERS: [u32; 4] = [6, 8, 10, 12];
-/// Width and height of the picture whose mean is the yardstick.
+/// Width and height of the picture whose mean gives the unit.
 const SIDE: f64 = 64.0;
 /// Bits of the register at which random query depths are compared with sampling.
 const COMPARED: u32 = 8;
 const SCENES: [&str; 2] = ["cornell-box", "lit-box"];
-/// Bits from which on a sixteenth of the runs is made: phase registers take long to simulate, and biases are
-/// small there.
+/// Least bits with which only a sixteenth of the runs is made: phase registers take long to simulate, and
+/// biases are small there.
 const FEWER_FROM: u32 = 12;
 
 /// An example scene's channels.
 struct Picture {
     scene: &'static str,
     film: u32,
-    /// By seed, which decides the paths: the values that exact counting gives.
+    /// Values by exact counting, by seed, which decides the paths.
     exact: Vec<Vec<f64>>,
 }
 
@@ -47,7 +47,7 @@ impl Picture {
         picture
     }
 
-    /// The values of all channels that are counted. A sixth of the scene's paths are traced.
+    /// Returns the values of all counted channels, from 2^9 paths a pixel.
     fn values(&self, sets: &[String], seed: u64) -> Vec<f64> {
         let mut all = vec![
             format!("film.width={}", self.film),
@@ -80,7 +80,7 @@ struct Errors {
 }
 
 impl Errors {
-    /// Of pairs of an error and the truth.
+    /// Computes the statistics of pairs of an error and the truth.
     fn of(runs: impl Iterator<Item = (f64, f64)>) -> Self {
         let [mut n, mut error, mut square, mut truth] = [0.0; 4];
         for (e, t) in runs {
@@ -97,7 +97,7 @@ impl Errors {
         }
     }
 
-    /// The bias in standard errors of a picture's mean.
+    /// Returns the bias in standard errors of a picture's mean.
     fn in_standard_errors(&self) -> f64 {
         if self.rmse > 0.0 {
             self.bias * SIDE / self.rmse
@@ -106,7 +106,7 @@ impl Errors {
         }
     }
 
-    /// The standard deviation of [`Self::in_standard_errors`].
+    /// Returns the standard deviation of [`Self::in_standard_errors`].
     fn measured_to(&self) -> f64 {
         SIDE / self.runs.sqrt()
     }
@@ -116,7 +116,7 @@ impl Errors {
     }
 }
 
-/// An estimator as a row of the table has it.
+/// An estimator with its settings: a row of the table.
 #[derive(Clone, Copy)]
 struct Row {
     name: Estimator,
@@ -128,14 +128,14 @@ struct Row {
 /// Measurements of all estimators.
 struct Table {
     pictures: [Picture; 2],
-    /// The same with fewer pixels, from [`FEWER_FROM`] on.
+    /// The same pictures with fewer pixels, from [`FEWER_FROM`] on.
     small: [Picture; 2],
     /// Renderings of each picture; one of each from [`FEWER_FROM`] on.
     seeds: u64,
     csv: String,
 }
 
-/// Prints the bias of each estimator and judges that of `adaptive-bayes`. Returns all of it as CSV.
+/// Prints the bias of each estimator and judges that of `adaptive-bayes`. Returns all figures as CSV.
 pub(crate) fn tables(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) -> String {
     let (small, seeds) = if quick { (16, 1) } else { (32, 3) };
     let mut table = Table {
@@ -208,7 +208,7 @@ impl Table {
         print!("| {label} | {asked} |");
         for a in AMPLITUDES {
             if by_strata {
-                // A single amplitude says nothing of the colours of paths.
+                // A single amplitude says nothing about the colours of paths.
                 print!(" |");
                 continue;
             }
@@ -255,7 +255,7 @@ impl Table {
         rmses[0]
     }
 
-    /// A line of the CSV file.
+    /// Appends a line to the CSV file.
     fn note(&mut self, row: Row, on: &str, asked: u64, found: &Errors) {
         let (
             Row { name, strata, .. },

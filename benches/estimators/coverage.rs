@@ -6,7 +6,7 @@ use qrt::core::scene::Estimator;
 use qrt::runtime::estimators::Problem;
 use std::fmt::Write as _;
 
-/// Amplitudes that are hard for one estimator or another; none: spread evenly.
+/// Amplitudes that are hard for one estimator or another; `None` stands for amplitudes spread evenly.
 const AMPLITUDES: [Option<f64>; 6] = [
     None,
     Some(0.0),
@@ -19,7 +19,7 @@ const AMPLITUDES: [Option<f64>; 6] = [
 /// Bits of the indices, and of the phase registers whose queries may be used.
 const SIZES: [(u32, u32); 4] = [(4, 5), (40, 5), (40, 8), (40, 12)];
 
-/// Prints how often the intervals of each estimator hold the amplitude, at least, over all sizes.
+/// Prints the least coverage of each estimator's intervals, over all sizes.
 pub(crate) fn table(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) {
     let runs = if quick { 500 } else { 10_000 };
     println!("| estimator | asked | even | 0 | 1e-6 | 0.5 | 1 - 1e-6 | 1 |");
@@ -48,7 +48,7 @@ pub(crate) fn table(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) {
                 least = least.min(held as f64 / f64::from(runs));
             }
             write!(cells, " {:.1} % |", 100.0 * least).unwrap();
-            // What few runs miss by chance.
+            // Allowance for chance, larger with few runs.
             let slack = if quick { 0.04 } else { 0.01 };
             let about = amplitude.map_or("spread evenly".to_owned(), |a| format!("a = {a}"));
             verdicts.keep(

@@ -1,27 +1,27 @@
-//! What is expected of each estimator, and where that comes from.
+//! Expected figures of each estimator, and their sources.
 
 use super::problems::Problems;
 use super::runs::{Point, cost, slopes};
 use qrt::core::scene::Estimator;
 use std::fmt;
 
-/// What is expected of an estimator.
+/// Expected figures of an estimator.
 pub(crate) struct Expected {
     /// B, the runs of the counting circuit; the queries of the others follow from it too.
     pub(crate) repetitions: u32,
-    /// Slope of the root mean square error, and how far off it may be.
+    /// Slope of the root mean square error, and its tolerance.
     rmse_slope: Option<(f64, f64)>,
-    /// The same of the 95th-percentile error.
+    /// Slope of the 95th-percentile error, and its tolerance.
     q95_slope: Option<(f64, f64)>,
-    /// Queries times 95th-percentile error, amplitudes spread evenly and [`KNOWN_FROM`] queries or
-    /// more: the range that is known. It is kept if the geometric mean is within a fifth of it.
+    /// Known range of queries times 95th-percentile error, for amplitudes spread evenly and [`KNOWN_FROM`]
+    /// queries or more. It is kept if the geometric mean is within a fifth of the range.
     cost: Option<(f64, f64)>,
-    /// Errors with so heavy a tail that the mean square needs many runs.
+    /// True if the errors have a heavy tail, so that the mean square needs many runs.
     heavy: bool,
 }
 
-/// Known figures are those of some hundred queries and more: with fewer, all methods still look for
-/// the right section of the angles.
+/// Least number of queries for which figures are known: with fewer, all methods still look for the right
+/// section of the angles.
 const KNOWN_FROM: u64 = 500;
 
 const LINEAR: Option<(f64, f64)> = Some((-1.0, 0.1));
@@ -42,9 +42,9 @@ impl Expected {
                 q95_slope: Some((-0.5, 0.03)),
                 ..unknown
             },
-            // One outcome is off by x steps with a probability of about 1/x^2: the mean square is
-            // the tail's, 1/T, and any quantile is a number of steps. 3.9 to 4.8 measured by
-            // others (one outcome, 95 %).
+            // One outcome is off by x steps with a probability of about 1/x^2: the tail dominates the mean
+            // square, 1/T, and any quantile is a number of steps. Others measured 3.9 to 4.8 (one outcome,
+            // 95 %).
             Estimator::Paper => Self {
                 rmse_slope: Some((-0.5, 0.07)),
                 q95_slope: LINEAR,
@@ -52,56 +52,55 @@ impl Expected {
                 heavy: true,
                 ..unknown
             },
-            // Three outcomes, posterior mean: 5.0 measured by others.
+            // Three outcomes, posterior mean: others measured 5.0.
             Estimator::PosteriorMean => Self {
                 repetitions: 3,
                 cost: Some((5.0, 5.0)),
                 ..unknown
             },
-            // 2.3 to 2.5 measured by others, T = 64 to 256; RMSE pi sqrt(a (1 - a))/T (Luis &
-            // Perina 1996).
+            // Others measured 2.3 to 2.5, T = 64 to 256; RMSE pi sqrt(a (1 - a))/T (Luis & Perina 1996).
             Estimator::Sine => Self {
                 rmse_slope: LINEAR,
                 q95_slope: LINEAR,
                 cost: Some((2.3, 2.5)),
                 ..unknown
             },
-            // 1.6 to 1.8 measured by others, 512 queries; at most 2.0 is promised.
+            // Others measured 1.6 to 1.8, 512 queries; at most 2.0 is promised.
             Estimator::AdaptiveBayes => Self {
                 rmse_slope: LINEAR,
                 q95_slope: LINEAR,
                 cost: Some((1.6, 1.8)),
                 ..unknown
             },
-            // 1.9 to 2.9 measured by others.
+            // Others measured 1.9 to 2.9.
             Estimator::RandomDepth => Self {
                 q95_slope: LINEAR,
                 cost: Some((1.9, 2.9)),
                 ..unknown
             },
-            // 3.7 to 3.9 measured by others (16 shots at each query depth).
+            // Others measured 3.7 to 3.9 (16 shots at each query depth).
             Estimator::Mlae => Self {
                 rmse_slope: Some((-1.0, 0.15)),
                 q95_slope: LINEAR,
                 cost: Some((3.7, 3.9)),
                 ..unknown
             },
-            // 4.1 to 4.4 measured by others (20 shots at once). A failure is as likely at the
-            // first query depth as at the last: the mean square has no such slope.
+            // Others measured 4.1 to 4.4 (20 shots at once). A failure is as likely at the first query
+            // depth as at the last, so the mean square does not have this slope.
             Estimator::Iqae => Self {
                 q95_slope: Some((-1.0, 0.15)),
                 cost: Some((4.1, 4.4)),
                 ..unknown
             },
-            // No figure in this unit is known. With ratios of at least 3 and so few queries the
-            // first query depths still tell.
+            // No figure in this unit is known. With ratios of at least 3 and few queries, the first query
+            // depths still affect the slopes.
             Estimator::Miqae => Self {
                 rmse_slope: Some((-1.0, 0.15)),
                 q95_slope: Some((-1.0, 0.2)),
                 ..unknown
             },
-            // 3.99/error for the error that is asked (Rall & Fuller 2022), 95 % of the runs being
-            // within it or better.
+            // 3.99/error for the requested error (Rall & Fuller 2022); 95 % of the runs are within it or
+            // better.
             Estimator::Chebyshev => Self {
                 q95_slope: Some((-1.0, 0.15)),
                 cost: Some((3.0, 3.99)),
@@ -120,7 +119,7 @@ impl Expected {
     }
 }
 
-/// Which promises were kept.
+/// The promises, and whether each was kept.
 #[derive(Default)]
 pub(crate) struct Verdicts(Vec<(bool, String)>);
 
@@ -133,8 +132,8 @@ impl Verdicts {
         self.0.iter().all(|verdict| verdict.0)
     }
 
-    /// Judges slopes and costs. On pixels, which are mostly dark, only slopes are known, and not of
-    /// all; with few runs, they are known to a fifth only.
+    /// Judges slopes and costs. On pixels, which are mostly dark, only the slopes of some estimators are
+    /// known; with few runs, the tolerance grows by at least 0.2.
     pub(crate) fn judge(
         &mut self,
         name: Estimator,
@@ -145,8 +144,8 @@ impl Verdicts {
     ) {
         // At amplitudes of a few thousandths the first rounds of methods that narrow an angle down
         // from the whole quarter turn find nothing: up to some hundred queries their error is the
-        // amplitude itself, then it falls more steeply (or, in mlae's tail, more slowly) than it
-        // will. What is asked of them on pixels is in the table, and no slope.
+        // amplitude itself, then it falls more steeply (or, in mlae's tail, more slowly) than later. On
+        // pixels the table shows their figures, and their slopes are not judged.
         let at_once = [
             Estimator::MonteCarlo,
             Estimator::Paper,

@@ -1,23 +1,23 @@
-//! What every estimator's queries buy, and whether its intervals have the coverage that they
-//! promise.
+//! Measures the error of every estimator by its queries, and whether its intervals have the coverage
+//! that they promise.
 //!
-//! `cargo bench --bench estimators` runs every estimator that there is
+//! `cargo bench --bench estimators` runs every estimator
 //!
 //! * on amplitudes spread evenly over [0, 1], and on the pixels of the Cornell box, at 63 to 8,191
 //!   queries: the root mean square error, the 95th-percentile error, the slopes of both
 //!   on logarithmic axes, and queries times error;
-//! * 10,000 times on each of a few kinds of amplitudes, among many indices and few: how often its
-//!   interval holds the amplitude;
+//! * 10,000 times on each of a few kinds of amplitudes, among many indices and few: the fraction of
+//!   intervals that hold the amplitude;
 //! * at amplitudes from 0 to 1/2 and on the pixels of two scenes: the bias, which no average over
 //!   pixels takes away;
 //! * by 1 to 6 strata of the comparator and by `auto`, on pixels whose colours are spread as light
-//!   sampling spreads them, and on such whose paths are all or nothing: what strata save;
+//!   sampling spreads them, and on pixels whose paths are all or nothing: the savings of strata;
 //!
-//! prints all as Markdown tables, and fails where a figure is not within the range that
-//! `expected.rs` gives with its source, or an interval holds more than a point less often than it
-//! says. `--csv FILE` writes all that was measured; `--quick` makes few runs and judges slopes and
-//! coverage generously, in some two minutes; a name alone runs the estimators whose names hold it,
-//! `strata` what is about strata, and `bias` the biases of all.
+//! prints all as Markdown tables, and fails if a figure is not within the range that `expected.rs`
+//! gives with its source, or an interval holds more than a point less often than it says.
+//! `--csv FILE` writes all measurements. `--quick` makes few runs and judges slopes and coverage
+//! generously, in some two minutes. A name alone runs the estimators whose names contain it, `strata`
+//! the tables of strata, and `bias` the biases of all.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -37,7 +37,7 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// What is asked on the command line.
+/// Arguments of the command line.
 struct Arguments {
     quick: bool,
     csv: Option<String>,
@@ -52,7 +52,7 @@ impl Arguments {
             match argument.as_str() {
                 "--quick" => quick = true,
                 "--csv" => csv = Some(arguments.next().expect("--csv FILE")),
-                // Cargo's own.
+                // Cargo adds it.
                 "--bench" => {}
                 _ => name = Some(argument),
             }
@@ -118,7 +118,7 @@ fn main() -> ExitCode {
     finish(&asked, begin, &csv, &verdicts)
 }
 
-/// Prints the verdicts, and writes what was measured where that is asked.
+/// Prints the verdicts, and writes the measurements to the file of `--csv`.
 fn finish(asked: &Arguments, begin: Instant, csv: &str, verdicts: &Verdicts) -> ExitCode {
     println!("\n{verdicts}");
     println!("{:.0} seconds", begin.elapsed().as_secs_f64());

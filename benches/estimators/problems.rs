@@ -1,4 +1,4 @@
-//! What is estimated: amplitudes spread evenly, or the pixels of a picture.
+//! The estimation problems: amplitudes spread evenly, or the pixels of a picture.
 
 use qrt::core::front;
 use qrt::core::scene::Estimator;
@@ -9,13 +9,13 @@ use std::path::Path;
 
 /// Amplitudes to run estimators on.
 pub(crate) enum Problems {
-    /// Spread evenly over [0, 1], in as many steps as there are runs.
+    /// Amplitudes spread evenly over [0, 1], one for each run.
     Even,
     /// Every channel of the Cornell box's pixels, in their order, as often as needed.
     Pixels { film: u32, list: Vec<Problem> },
 }
 
-/// Indices where amplitudes are spread evenly.
+/// Number of indices for amplitudes that are spread evenly.
 pub(crate) const TOTAL: u64 = 1 << 40;
 
 impl Problems {
@@ -23,7 +23,7 @@ impl Problems {
         Self::Even
     }
 
-    /// Counted by the fixed machine, path by path.
+    /// Counts the pixels on the fixed machine, path by path.
     pub(crate) fn pixels(quick: bool) -> Self {
         let (film, path_bits) = if quick { (16, 8) } else { (64, 12) };
         let sets = [
@@ -49,7 +49,7 @@ impl Problems {
         Self::Pixels { film, list }
     }
 
-    /// As it is called in files.
+    /// Returns its name in files.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Even => "even",

@@ -8,7 +8,7 @@ use qrt::runtime::random::Stream;
 use std::fmt;
 use std::time::Instant;
 
-/// An estimator with what B runs of the counting circuit with T = 2^bits take.
+/// An estimator with the queries of B runs of the counting circuit with T = 2^bits.
 #[derive(Clone, Copy)]
 pub(crate) struct Run {
     pub(crate) name: Estimator,
@@ -16,7 +16,7 @@ pub(crate) struct Run {
     pub(crate) repetitions: u32,
 }
 
-/// What one run found.
+/// The outcome of one run.
 #[derive(Clone, Copy)]
 pub(crate) struct Outcome {
     /// The estimate less the truth.
@@ -27,9 +27,9 @@ pub(crate) struct Outcome {
     pub(crate) confidence: f64,
 }
 
-/// What many runs with the same settings found.
+/// Statistics of many runs with the same settings.
 pub(crate) struct Point {
-    /// Queries that might be used, and the mean of those that were.
+    /// Queries that the run may use. `queries` is the mean of those that it used.
     pub(crate) asked: u64,
     pub(crate) queries: f64,
     pub(crate) rmse: f64,
@@ -50,7 +50,7 @@ impl Run {
         Settings::of(&counting).unwrap()
     }
 
-    /// `runs` runs on all cores. Each has its own random numbers, whatever thread it is on.
+    /// Makes `runs` runs on all cores. Each has its own random numbers, whatever thread it is on.
     pub(crate) fn outcomes(
         &self,
         runs: u32,
@@ -65,7 +65,7 @@ impl Run {
             let found = estimator.estimate(&mut device).unwrap();
             let truth = problem.good as f64 / problem.total as f64;
             let (low, high) = found.interval;
-            // Roundings of the interval's ends are not failures.
+            // Rounding of the interval's ends is no failure.
             let rounding = 4.0 * f64::EPSILON;
             Outcome {
                 error: found.amplitude - truth,
@@ -109,7 +109,7 @@ impl Run {
 }
 
 impl fmt::Display for Point {
-    /// As a line of the CSV file.
+    /// Writes a line of the CSV file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -119,7 +119,7 @@ impl fmt::Display for Point {
     }
 }
 
-/// The slopes of the RMSE and of the 95th-percentile error over the queries that were used.
+/// Returns the slopes of the RMSE and of the 95th-percentile error over the used queries.
 pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     let of = |value: fn(&Point) -> f64| {
         let logarithms = points.iter().map(|p| (p.queries.ln(), value(p).ln()));
@@ -128,14 +128,14 @@ pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     (of(|p| p.rmse), of(|p| p.q95))
 }
 
-/// The geometric mean of queries times 95th-percentile error, of points of at least `from` queries.
+/// Returns the geometric mean of queries times 95th-percentile error, of points of at least `from` queries.
 pub(crate) fn cost(points: &[Point], from: u64) -> f64 {
     let known = points.iter().filter(|point| point.asked >= from);
     let costs: Vec<f64> = known.map(|p| (p.queries * p.q95).ln()).collect();
     (costs.iter().sum::<f64>() / costs.len() as f64).exp()
 }
 
-/// As a row of the Markdown table.
+/// Returns a row of the Markdown table.
 pub(crate) fn row(points: &[Point]) -> String {
     let (rmse, q95) = slopes(points);
     let rmses = range(points.iter().map(|p| p.queries * p.rmse));
@@ -153,7 +153,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// The 95th percentile of the values. Sorts them.
+/// Returns the 95th percentile of `values`. Sorts them.
 pub(crate) fn quantile_95(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() * 19).div_ceil(20) - 1]

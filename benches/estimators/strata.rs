@@ -1,7 +1,7 @@
-//! What strata of the comparator save.
+//! Savings by strata of the comparator.
 //!
-//! Errors fall as one over the queries, so that the ratio of two errors at equal queries is that
-//! of the queries for equal errors. What `auto` spends on finding out counts with it.
+//! Errors fall as one over the queries, so the ratio of two errors at equal queries is the ratio of
+//! the queries for equal errors. The queries with which `auto` chooses the strata count, too.
 
 use super::expected::Verdicts;
 use qrt::core::scene::{Counting, Estimator};
@@ -14,10 +14,10 @@ const COMPARATOR_BITS: u32 = 10;
 const PATHS: u64 = 1 << 12;
 /// Bits of the phase registers whose queries may be used.
 const REGISTERS: [u32; 4] = [8, 10, 12, 13];
-/// From so many queries on the saving is promised: with fewer, the search in each stratum tells.
+/// Least bits for which the saving is promised: with fewer queries, the search in each stratum dominates.
 const PROMISED_FROM: u32 = 12;
 
-/// How the colours of a pixel's paths are spread, in units of their bound.
+/// Distribution of the colours of a pixel's paths, in units of their bound.
 struct Pixel {
     name: &'static str,
     colour: fn(f64) -> f64,
@@ -30,7 +30,7 @@ const PIXELS: [Pixel; 3] = [
         name: "light sampling",
         colour: |u| 0.1 * (u - 0.226).max(0.0),
     },
-    // The same deviation with a tail that has no end: Weibull's distribution.
+    // The same deviation with an endless tail: Weibull's distribution.
     Pixel {
         name: "light sampling, long tail",
         colour: |u| (0.031_76 * (-(1.0 - u).ln()).powf(1.0 / 1.18)).min(1.0),
@@ -61,7 +61,7 @@ impl Pixel {
         octaves
     }
 
-    /// The root mean square and the 95th-percentile error of `runs` runs.
+    /// Returns the root mean square and the 95th-percentile error of `runs` runs.
     fn errors(&self, bits: u32, strata: Option<u32>, runs: u32) -> [f64; 2] {
         let counting = Counting {
             phase_bits: bits,
@@ -99,7 +99,7 @@ impl Pixel {
     }
 }
 
-/// Prints what strata save on every pixel, and judges it; all that was measured, as CSV.
+/// Prints the savings of strata on every pixel, and judges them; returns all measurements as CSV.
 pub(crate) fn tables(quick: bool, verdicts: &mut Verdicts) -> String {
     let runs = if quick { 600 } else { 2000 };
     let mut csv = String::from("pixel,queries,strata,rmse,q95\n");
@@ -107,7 +107,7 @@ pub(crate) fn tables(quick: bool, verdicts: &mut Verdicts) -> String {
         println!("\n### Strata: {}\n", pixel.name);
         println!("| queries | 1: q95 x queries | 2 | 3 | 4 | 6 | auto |");
         println!("| --- | --- | --- | --- | --- | --- | --- |");
-        // By number of strata, logarithms of savings where they are promised.
+        // Sums of the logarithms of promised savings and their number, by number of strata.
         let mut savings = [(0.0, 0.0); STRATA.len()];
         for bits in REGISTERS {
             let queries = (1_u64 << bits) - 1;

@@ -62,7 +62,7 @@ def iterative(error, shots, seed):
 
     def run(amplitude):
         found = method.estimate(problem(amplitude))
-        # Qiskit counts iterations; of its shots without any it counts none.
+        # Qiskit counts iterations only, so its shots without an iteration are added here.
         bare = shots * sum(1 for k in found.powers[1:] if k == 0)
         return found.estimation, found.num_oracle_queries + bare
 

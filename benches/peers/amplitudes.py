@@ -61,7 +61,7 @@ def circuit(seed, qubits, gates):
         print(*gate)
         simulated.append(operation(gate, line))
     simulator = cirq.Simulator(dtype=numpy.complex128)
-    # Its first qubit is the highest bit of an index.
+    # cirq's first qubit is the highest bit of an index.
     final = simulator.simulate(simulated, qubit_order=line[::-1]).final_state_vector
     for amplitude in final:
         print("amplitude", repr(float(amplitude.real)), repr(float(amplitude.imag)))
@@ -78,7 +78,7 @@ def counting(good, phase_bits):
     simulated = cirq.Circuit(cirq.H(q) for q in ids + counter)
     for j, control in enumerate(counter):
         power = numpy.linalg.matrix_power(iterate, 2**j)
-        # The first qubit of a matrix is the highest bit.
+        # The first qubit of a matrix is its index's highest bit.
         simulated.append(cirq.MatrixGate(power)(*ids[::-1]).controlled_by(control))
     simulated.append(cirq.qft(*counter[::-1], inverse=True))
     simulator = cirq.Simulator(dtype=numpy.complex128)

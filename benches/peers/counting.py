@@ -79,7 +79,7 @@ def lightning(circuit):
     start = time.perf_counter()
     state.apply_operations(operations)
     seconds = time.perf_counter() - start
-    # Its wire 0 is the highest bit of an index.
+    # Wire 0 of lightning.qubit is the highest bit of an index.
     amplitudes = numpy.asarray(state.state).reshape([2] * qubits)
     return seconds, numpy.abs(amplitudes) ** 2, list(range(qubits))
 
@@ -127,7 +127,7 @@ def qsim(circuit):
     options = qsimcirq.QSimOptions(cpu_threads=os.cpu_count(), max_fused_gate_size=4)
     simulator = qsimcirq.QSimSimulator(options, circuit_memoization_size=1)
     seconds = math.inf
-    # The first run reads cirq's objects, which is not the simulator's work; the second knows them.
+    # The first run converts cirq's objects, which is not the simulator's work; the second finds them converted.
     for _ in range(2):
         start = time.perf_counter()
         found = simulator.simulate(whole, qubit_order=line)
@@ -148,7 +148,7 @@ def main():
 
     counter = circuit["counter"]
     others = tuple(axis for axis in axes if axis not in counter)
-    # Axes of the counter in ascending order, bit 0 first: the last bit is the slowest in print.
+    # The axes ascend with the counter's qubits. They are reversed, so that the last bit varies slowest in print.
     marginal = numpy.sum(probabilities, axis=others)
     order = sorted(counter)
     marginal = numpy.transpose(marginal, [order.index(q) for q in reversed(counter)])

@@ -1,4 +1,4 @@
-"""Virtual environments with what is measured beside qrt, from PyPI at pinned versions."""
+"""Virtual environments with the programs measured beside qrt, from PyPI at pinned versions."""
 
 import os
 import pathlib

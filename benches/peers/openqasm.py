@@ -39,7 +39,7 @@ SMALL = [
     "comparator.bits=2",
     "counting.phase_bits=3",
 ]
-# Each takes a quarter of a second.
+# A shot takes a quarter of a second.
 SHOTS = 200
 # Q# gives shot i the seed SEED + i: neighbouring seeds have most of their shots in common.
 SEED = 31415
@@ -68,10 +68,10 @@ class Qrt:
         return file.read_text(), json.loads(answer)
 
 
-# What an estimator counts that tells no other gates apart.
+# Key for an importer that counts Toffolis alone.
 TOFFOLIS = "Toffolis"
 
-# Importers: each gives the number of gates by their names in OpenQASM.
+# Importers: each returns the number of gates by their names in OpenQASM.
 
 
 def of_qiskit(circuit):
@@ -116,7 +116,7 @@ def cirq(text):
 def pennylane(text):
     import pennylane
 
-    # It takes neither of these.
+    # PennyLane supports neither `measure` nor `include`.
     lines = [line for line in text.splitlines() if "measure" not in line and "include" not in line]
     with pennylane.queuing.AnnotatedQueue() as queue:
         pennylane.from_qasm3("\n".join(lines), {})()
@@ -171,7 +171,7 @@ THREE = {
 }
 TWO = {"Qiskit": qiskit2, "Q#": qsharp, "Cirq": cirq, "MQT Core": mqt, "pytket": pytket}
 LANGUAGES = {"openqasm3": THREE, "openqasm2": TWO}
-# What takes minutes for 200,000 gates reads oracles alone.
+# These importers take minutes for 200,000 gates, so they read oracles alone.
 SHORT = {"pytket", "Q#"}
 
 
@@ -248,7 +248,7 @@ def chi_square(found, expected):
 
 
 def read(importer, text, figures):
-    """Whether an importer finds the gates that were written; if not, what it says."""
+    """Returns whether an importer finds the gates that were written; if not, its answer."""
     try:
         found = importer(text)
     except Exception as error:  # an importer that refuses is an answer, too
@@ -258,7 +258,7 @@ def read(importer, text, figures):
 
 
 class Checks:
-    """What was compared."""
+    """The comparisons, and the number that failed."""
 
     def __init__(self):
         self.failed = 0

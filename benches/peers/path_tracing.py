@@ -40,16 +40,16 @@ import time
 from environment import inside
 
 VARIANTS = ["llvm_ad_rgb", "scalar_rgb"]
-# The exit status of a variant that this machine does not have.
+# Exit status for a variant that this machine does not have.
 NOT_HERE = 3
 
-# The truth: so many renders of so many samples.
+# The reference picture: number of renders, and samples per pixel of each.
 TRUTH = (16, 4096)
 TRUTH_SAMPLER = "multijitter"
-# Samples of a pixel, over all seeds, that tell an error well enough.
+# Samples of a pixel, over all seeds, that suffice to measure an error.
 ENOUGH = 8192
 
-# The samples of a pixel that are tried. Most samplers permute a pixel's samples at random, which is
+# Samples per pixel that the benchmark tries. Most samplers permute a pixel's samples at random, which is
 # quickest where they are a power of two, or little less: these take squares, or squares of primes.
 POWERS = [4**k for k in range(2, 8)]
 SAMPLES = {
@@ -128,7 +128,7 @@ def curve(renderer, truth, sampler, least, seeds):
     """Samples, errors and seconds, until the error is below the least."""
     points = []
     for samples in SAMPLES[sampler]:
-        # At least two: the first compiles the code, which is not rendering.
+        # At least two runs: the first also compiles the code, which is not rendering.
         runs = max(2, min(seeds, ENOUGH // samples))
         renders = [renderer.render(sampler, samples, seed) for seed in range(1, 1 + runs)]
         squares = [truth.squared_error(picture) for picture, _ in renders]
@@ -154,7 +154,7 @@ def measure(mi, arguments):
 
 
 def compare(mi, reference, scene):
-    """How far a picture is from one of the reference data, in standard errors."""
+    """Returns the distance of a picture from one of the reference data, in standard errors."""
     import numpy
 
     reference = pathlib.Path(reference)
@@ -163,7 +163,7 @@ def compare(mi, reference, scene):
     renderer = Renderer(mi, scene)
     renders = [renderer.render("independent", 1024, seed)[0] for seed in range(16)]
     ours = numpy.mean(renders, axis=0)
-    # Pixels that rare paths feed have their error underestimated.
+    # Rare paths make the estimated error of a pixel too small.
     squares = error**2 + numpy.var(renders, axis=0, ddof=1) / 16 + (1e-4 * theirs.mean()) ** 2
     return {"standard_errors": math.sqrt(((ours - theirs) ** 2 / squares).mean())}
 
@@ -208,7 +208,7 @@ def main():
             found = measure(mi, arguments)
         print(json.dumps(said | found))
         return
-    # An LLVM that does not suit Mitsuba ends its process, so that each variant needs one of its own.
+    # An LLVM that does not suit Mitsuba ends its process, so each variant runs in a process of its own.
     for variant in VARIANTS:
         command = [sys.executable, *sys.argv, "--variant", variant]
         status = subprocess.run(command).returncode

@@ -26,7 +26,7 @@ import warnings
 
 from environment import inside
 
-# By the estimator's names: what the table says, gates and measurement in ns, the physical error rate.
+# By the estimator's name: the table's label, gate time and measurement time in ns, physical error rate.
 GATES = {
     "qubit_gate_ns_e3": ("ns, $10^{-3}$", 50, 100, 1e-3),
     "qubit_gate_ns_e4": ("ns, $10^{-4}$", 50, 100, 1e-4),
@@ -37,7 +37,7 @@ MAJORANA = {
     "qubit_maj_ns_e4": "Majorana, $10^{-4}$",
     "qubit_maj_ns_e6": "Majorana, $10^{-6}$",
 }
-# The new engine's own domain ends at 25, too little for a run of hours.
+# The new engine's own domain ends at distance 25, too little for a run of hours.
 DISTANCES = list(range(3, 70, 2))
 
 
@@ -98,7 +98,7 @@ def main():
     parser.add_argument("--error", type=float, default=0.01, help="the probability that a run fails")
     arguments = parser.parse_args()
     inside(arguments.venv, "physical.txt")
-    # The estimator says that it will be replaced.
+    # Ignore the estimator's warning of its own deprecation.
     warnings.simplefilter("ignore")
     engine, machines = ENGINES[arguments.engine]
     print("| circuit | machine | qubits for a pixel | a pixel | qubits for the film | the film |")

@@ -32,7 +32,7 @@ WORKERS = (1, 2, 4)
 
 
 def timed(function, *arguments):
-    """What a worker's function gives, and the processor time of it in seconds."""
+    """Returns the result of a worker's function, and its processor time in seconds."""
     began = time.process_time()
     made = function(*arguments)
     return made, time.process_time() - began
@@ -70,7 +70,7 @@ def by_pool(scene, workers, folder, seed):
 
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context) as pool:
-        # All of them are there before the first tile, and have the package.
+        # All workers have started and imported the package before the first tile.
         list(pool.map(warm, range(4 * workers)))
         counted = Timed(pool)
         merging = []
@@ -126,7 +126,7 @@ def by_command(command, words, workers, folder, seed):
 
 
 def costs(scene, command, words, folder, film, parts):
-    """What tracing is not: lines of text. `film` is of one path a pixel, in so many `parts`."""
+    """Costs besides tracing, as lines of text. `film` is of one path a pixel, in `parts` parts."""
     width, height = film
     pixels = width * height
     yield f"a pickled scene: {len(pickle.dumps(scene)) / 1000:.1f} kB"
@@ -162,7 +162,7 @@ def spent(words):
 
 
 def processor():
-    """What the machine is."""
+    """Returns the machine's processor and number of cores."""
     lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
     names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
     return f"{(names or [platform.processor()])[0]}, {len(os.sched_getaffinity(0))} cores"

@@ -1,7 +1,7 @@
-//! Compiles the figures' scenes: what a browser needs of them, and not the compiler.
+//! Compiles the figures' scenes, so that a browser gets the results without the compiler.
 //!
-//! The circuit's oracle is built and lowered here, and becomes a list of gates; the picture's scene is
-//! read here, and becomes data. Both are written as Rust into `OUT_DIR`.
+//! This script builds the circuit's oracle and lowers it to a list of gates, and reads the picture's
+//! scene into data. It writes both as Rust into `OUT_DIR`.
 
 use qrt_circuit::{Gate, Operand, Program, RegisterId, Type, lower};
 use qrt_core::compile::{Label, Role};
@@ -14,7 +14,7 @@ use std::path::Path;
 
 const CIRCUIT: &str = "scenes/lamp.yaml";
 const PICTURE: &str = "../../scenes-yaml/cornell-box.yaml";
-/// What the picture's scene is made smaller by, as `--set` does.
+/// Overrides that make the picture's scene smaller, as `--set` does.
 const SMALLER: [&str; 2] = ["film={ width: 24, height: 24 }", "sampling.path_bits=10"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The oracle of the first channel of the first pixel: compute, compare and flip, uncompute.
+/// Returns the oracle of the first channel of the first pixel: compute, compare and flip, uncompute.
 fn circuit() -> Result<String, Box<dyn Error>> {
     let scene = front::load(CIRCUIT.as_ref(), &[])?.valid;
     let oracle = Oracle::new(&scene, 0, Options::default())?;
@@ -80,7 +80,7 @@ fn circuit() -> Result<String, Box<dyn Error>> {
     }
     writeln!(out, "];")?;
 
-    // A register has the same qubits as long as it holds something.
+    // A register keeps its qubits as long as it holds a value.
     let mut qubits: Vec<Vec<u8>> = vec![Vec::new(); program.registers.len()];
     let mut held = |held: &[(RegisterId, Vec<u32>)]| -> Result<Vec<u8>, Box<dyn Error>> {
         for (register, now) in held {
@@ -106,7 +106,7 @@ fn circuit() -> Result<String, Box<dyn Error>> {
             .filter_map(|gate| encoded(*gate, &words).transpose())
             .collect::<Result<_, _>>()?;
         all.push(gates.clone());
-        // What uncomputes is written once.
+        // Gates of uncompute mirror those of compute, so they are written once.
         let twin = all.get(parts.len() - all.len());
         let mirrored = all.len() > parts.len() - compute
             && twin.is_some_and(|twin| twin.iter().rev().eq(&gates));
@@ -138,7 +138,7 @@ fn register(operand: Operand) -> Result<RegisterId, Box<dyn Error>> {
     }
 }
 
-/// A gate as four bytes: its kind and its qubits. A pixel's own words are built in: an X, or nothing.
+/// Encodes a gate as four bytes: its kind and its qubits. A pixel's own words become an X or nothing.
 fn encoded(gate: Gate, words: &[u64]) -> Result<Option<[u8; 4]>, std::num::TryFromIntError> {
     let bytes = |kind: u8, a: u32, b: u32, t: u32| -> Result<_, std::num::TryFromIntError> {
         Ok(Some([
@@ -162,7 +162,7 @@ fn encoded(gate: Gate, words: &[u64]) -> Result<Option<[u8; 4]>, std::num::TryFr
     }
 }
 
-/// An operation in words: what it is called, what it changes and what it reads.
+/// Describes an operation in words: its name, and the registers that it changes and reads.
 fn told(program: &Program, op: u32, inverse: bool) -> String {
     let op = &program.ops[op as usize];
     let name = |id: &RegisterId| program.registers[id.index()].name.as_str();
@@ -179,7 +179,7 @@ fn told(program: &Program, op: u32, inverse: bool) -> String {
     told
 }
 
-/// The scene as the expression that makes it, for the kinds of parts that it has.
+/// Returns the scene as a Rust expression, for the kinds of parts that it has.
 fn picture() -> Result<String, Box<dyn Error>> {
     let sets = SMALLER.map(str::to_owned);
     let loaded = front::load(PICTURE.as_ref(), &sets)?;

@@ -4,10 +4,10 @@
 //! cargo run --release --example book-figures [NAME...]
 //! ```
 //!
-//! writes all of them to `book/src/figures`, or those whose names hold one of the NAMEs, and prints
-//! what each shows. Nothing in them depends on the machine: `cargo test --test book figures` makes
-//! them again and compares. Tables that take too long to measure each time are in `book/data`; its
-//! README says by which commands they are made.
+//! writes all of them to `book/src/figures`, or those whose names contain one of the NAMEs, and
+//! prints a description of each. Nothing in them depends on the machine: `cargo test --test book
+//! figures` makes them again and compares. Tables that take too long to measure each time are in
+//! `book/data`; its README names the commands that make them.
 
 // A figure that cannot be made has nothing to show.
 #![allow(clippy::unwrap_used, clippy::expect_used)]

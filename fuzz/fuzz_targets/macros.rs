@@ -1,4 +1,4 @@
-//! The macros are functions of a crate of the compiler's, which the fuzzer cannot call: it has their files.
+//! Fuzz target of the macros. A fuzzer cannot call a proc-macro crate, so this target includes its files.
 #![no_main]
 #![allow(
     dead_code,

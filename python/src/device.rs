@@ -22,7 +22,7 @@ struct State {
 }
 
 impl Device {
-    /// Draws are those of the pixel and the channel (0 red, 1 green, 2 blue) under `seed`.
+    /// Creates a device with the random draws of the pixel and the channel (0 red, 1 green, 2 blue) under `seed`.
     pub(crate) fn new(
         problem: Problem,
         noise: Noise,
@@ -50,7 +50,7 @@ impl Device {
     where
         T: Send,
     {
-        // Who waits for the lock does not hold up the interpreter, which its holder may want.
+        // The thread releases the interpreter while it waits for the lock, because the lock's holder may need it.
         let measured = py.detach(|| {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
             let State {
@@ -85,7 +85,7 @@ impl Device {
         Ok(self.shots(py, k, 1)? == 1)
     }
 
-    /// How many of so many measurements after k iterates each are good.
+    /// Number of good outcomes among `shots` measurements after k iterates each.
     fn shots(&self, py: Python<'_>, k: u64, shots: u64) -> PyResult<u64> {
         self.measure(py, |device| device.iterated(k, shots))
     }

@@ -6,7 +6,7 @@ use qrt_core::syntax::Report;
 use qrt_runtime::memory::MemoryError;
 use qrt_runtime::render::RenderError;
 
-/// An exception of a class of `qrt`.
+/// Returns an exception of the class `class` of `qrt`.
 fn exception<'py, A>(py: Python<'py>, class: &str, arguments: A) -> PyErr
 where
     A: pyo3::call::PyCallArgs<'py>,
@@ -21,27 +21,27 @@ where
     }
 }
 
-/// What was asked for does not exist, or does not go together.
+/// Returns the exception for a request that names what does not exist, or combines what does not go together.
 pub(crate) fn request(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "RequestError", (message.to_string(),))
 }
 
-/// What was asked for would not fit into memory.
+/// Returns the exception for a request that exceeds the memory budget.
 pub(crate) fn memory(py: Python<'_>, error: &MemoryError) -> PyErr {
     request(py, format!("{error}, or allow more with max_memory"))
 }
 
-/// The work failed.
+/// Returns the exception for work that failed.
 pub(crate) fn job(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "JobError", (message.to_string(),))
 }
 
-/// Parts that make no picture.
+/// Returns the exception for parts that make no picture.
 pub(crate) fn merging(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "MergeError", (message.to_string(),))
 }
 
-/// Everything that is wrong with a scene, as the command shows it.
+/// Returns the exception with all errors of a scene, as the command shows them.
 pub(crate) fn scene(py: Python<'_>, report: &Report) -> PyErr {
     match problems(py, report) {
         Ok(problems) => exception(py, "SceneError", (report.to_string().trim_end(), problems)),
@@ -49,7 +49,7 @@ pub(crate) fn scene(py: Python<'_>, report: &Report) -> PyErr {
     }
 }
 
-/// Warns of what is not wrong, but surely not meant.
+/// Warns about valid input that is surely not meant.
 pub(crate) fn warn(py: Python<'_>, report: &Report) -> PyResult<()> {
     let class = py.import("qrt._errors")?.getattr("SceneWarning")?;
     let text = report.to_string();
@@ -69,7 +69,7 @@ fn problems<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyTupl
     PyTuple::new(py, problems.collect::<PyResult<Vec<_>>>()?)
 }
 
-/// Why there is no picture.
+/// Returns the exception for a render that failed.
 pub(crate) fn render(
     py: Python<'_>,
     error: RenderError,

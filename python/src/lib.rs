@@ -1,4 +1,4 @@
-//! The native part of the Python package `qrt`; what users import is in `python/qrt`.
+//! The native part of the Python package `qrt`; the modules for users are in `python/qrt`.
 
 mod device;
 mod errors;

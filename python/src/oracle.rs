@@ -1,4 +1,4 @@
-//! A pixel's oracle: what it costs, its counts, its circuit.
+//! A pixel's oracle: its costs, its counts, its circuit.
 
 use crate::device::Device;
 use crate::errors;
@@ -20,7 +20,7 @@ use qrt_runtime::memory::{CircuitWork, Memory};
 use qrt_runtime::physical::{PhysicalError, PictureCounts};
 use std::sync::{Arc, OnceLock};
 
-/// Paths whose thresholds are told, at most: 8 bytes each.
+/// Most paths whose thresholds are returned: 8 bytes each.
 const MOST_PATHS: u64 = 1 << 28;
 
 /// The oracle of a channel of a pixel.
@@ -28,7 +28,7 @@ const MOST_PATHS: u64 = 1 << 28;
 pub(crate) struct Oracle {
     scene: Py<Scene>,
     traced: ValidScene,
-    /// Queries of a pixel that are planned, by channel, where the scene asks for an accuracy.
+    /// Planned queries of a pixel, by channel, if the scene asks for an accuracy.
     planned: Option<[f64; 3]>,
     name: OracleName,
     which: String,
@@ -39,7 +39,7 @@ pub(crate) struct Oracle {
     cost: Cost,
     qubits: u32,
     toffoli_depth: u64,
-    /// By path index, the thresholds that its colour exceeds.
+    /// Number of thresholds that a path's colour exceeds, by path index.
     thresholds: OnceLock<Vec<i64>>,
 }
 
@@ -159,7 +159,7 @@ impl Oracle {
         self.pixel.into()
     }
 
-    /// What keys the shifts of its paths.
+    /// The key of its paths' shifts.
     #[getter]
     fn seed(&self) -> u64 {
         self.seed
@@ -248,8 +248,8 @@ impl Oracle {
         Ok(good as f64 / total as f64)
     }
 
-    /// How many thresholds the colour of each path exceeds: an array of (2**path_bits,), int64, in the order
-    /// of path indices, that shares the oracle's memory and can't be written to. Index path + (y <<
+    /// The number of thresholds that the colour of each path exceeds: an array of (2**path_bits,), int64, in the
+    /// order of path indices, that shares the oracle's memory and can't be written to. Index path + (y <<
     /// path_bits) is good if y is below it.
     #[getter]
     fn thresholds<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
@@ -339,7 +339,7 @@ impl Oracle {
         written.map_err(|message| errors::request(py, message))
     }
 
-    /// What estimators of physical resources take, by the names of Q#'s `LogicalCounts`: for
+    /// The input of estimators of physical resources, by the names of Q#'s `LogicalCounts`: for
     /// `qdk.estimator.LogicalCounts(...)`. `of` is "oracle" (a call), "channel", "pixel" or "film" (all that the scene's
     /// counting may use); `measured` says whether ANDs are undone by measurement.
     #[pyo3(signature = (of="oracle", *, measured=true))]

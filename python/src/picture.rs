@@ -11,7 +11,7 @@ use qrt_runtime::render::{Merge, Rendered};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// A picture, and how it came about.
+/// A picture with the facts of its render.
 #[pyclass(frozen, module = "qrt")]
 pub(crate) struct Picture {
     rendered: Rendered,
@@ -42,7 +42,7 @@ fn refused(py: Python<'_>, error: ImageError) -> PyErr {
     }
 }
 
-/// An array over memory of a picture, which it keeps alive. It can't be written to.
+/// Returns a read-only array over memory of a picture, which the array keeps alive.
 fn shared<'py, T: Element>(
     picture: &Bound<'py, Picture>,
     view: Result<ArrayView3<'_, T>, ShapeError>,
@@ -64,7 +64,7 @@ impl Picture {
         }
     }
 
-    /// The bounds on a path's colour, by pixel.
+    /// Returns the bounds on a path's colour, by pixel.
     fn bounds(&self) -> &[[f64; 3]] {
         self.scales.get_or_init(|| {
             let [x, y, width, height] = self.rendered.crop;
@@ -73,7 +73,7 @@ impl Picture {
         })
     }
 
-    /// What was estimated of S/N, by pixel; 0 where a channel is proven black.
+    /// Returns the estimates of S/N, by pixel; 0 where a channel is proven black.
     fn estimates(&self) -> &[[f64; 3]] {
         let of = |(pixel, scale): (&[f64; 3], &[f64; 3])| {
             std::array::from_fn(|c| {
@@ -121,7 +121,7 @@ impl Picture {
         shared(this, view).map(Some)
     }
 
-    /// How wide the interval of a channel is, in radiance: an array of (rows, columns, 3), float64; 0 under
+    /// The width of the interval of a channel, in radiance: an array of (rows, columns, 3), float64; 0 under
     /// "exact". Of one run, that of the luminance stands in the first place.
     #[getter]
     fn widths<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
@@ -196,19 +196,19 @@ impl Picture {
         self.rendered.crop.into()
     }
 
-    /// What keyed its shifts and draws.
+    /// The key of its shifts and draws.
     #[getter]
     fn seed(&self) -> u64 {
         self.rendered.seed
     }
 
-    /// What traced its paths.
+    /// The model that traced its paths.
     #[getter]
     fn model(&self) -> &'static str {
         self.rendered.model.name()
     }
 
-    /// What estimated its amplitudes.
+    /// The estimator of its amplitudes.
     #[getter]
     fn estimator(&self) -> &'static str {
         self.rendered.estimator.name()
@@ -232,7 +232,7 @@ impl Picture {
         self.rendered.mean().into()
     }
 
-    /// How the picture was made, as its files tell it.
+    /// The facts of its render, as its files tell them.
     #[getter]
     fn metadata<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let metadata = self

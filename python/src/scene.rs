@@ -1,4 +1,4 @@
-//! Scenes: read, checked, rendered, asked for paths and oracles.
+//! Scenes: reads, checks and renders them, and creates their paths and oracles.
 
 use crate::oracle::Oracle;
 use crate::picture::Picture;
@@ -25,10 +25,10 @@ use qrt_runtime::search::Guess;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Paths that are handed over at once, at most: 24 bytes each.
+/// Most paths that are returned at once: 24 bytes each.
 const MOST_PATHS: u64 = 1 << 28;
 
-/// Files by the name that the scene has for them, with their contents.
+/// Files by their names in the scene, with their contents.
 type Held = Vec<(String, Vec<u8>)>;
 
 /// A scene that was read and checked: what `qrt.load`, `qrt.parse` and `qrt.from_dict` make. It does not
@@ -37,13 +37,13 @@ type Held = Vec<(String, Vec<u8>)>;
 pub(crate) struct Scene {
     pub(crate) loaded: Loaded,
     sets: Vec<String>,
-    /// Where its files are.
+    /// The folder of its files.
     folder: PathBuf,
-    /// Its files, if it came with them from another process.
+    /// Contents of its files, if they came with it from another process.
     held: Option<Held>,
 }
 
-/// The scene of a YAML file. `sets` are overrides, `KEY=VALUE`.
+/// Loads the scene of a YAML file. `sets` are overrides, `KEY=VALUE`.
 #[pyfunction]
 pub(crate) fn load(
     py: Python<'_>,
@@ -56,7 +56,7 @@ pub(crate) fn load(
     Scene::new(py, read, sets, folder, None)
 }
 
-/// The scene of a YAML text that errors call `name`; its files are below `folder`.
+/// Parses the scene of a YAML text, whose name in errors is `name`; its files are below `folder`.
 #[pyfunction]
 pub(crate) fn parse(
     py: Python<'_>,
@@ -71,7 +71,7 @@ pub(crate) fn parse(
     Scene::new(py, read, sets, folder, None)
 }
 
-/// A scene of another process, with the files that it came with.
+/// Restores a scene of another process from its text and the files that it came with.
 #[pyfunction]
 pub(crate) fn restore(
     py: Python<'_>,
@@ -95,14 +95,14 @@ pub(crate) fn restore(
     }
 }
 
-/// What is asked of a render, in Python's words.
+/// The options of a render, read from Python's keyword arguments.
 struct Asked {
     options: Options<'static>,
     threads: Option<std::num::NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 }
 
-/// The value of this name, or what the names are.
+/// Returns the value with the name `asked`, or an error that lists the names.
 fn of_name<T: Copy>(
     py: Python<'_>,
     argument: &str,
@@ -132,7 +132,7 @@ impl Asked {
             let own = &mut asked.options;
             match key.as_str() {
                 "progress" => asked.progress = Some(value.unbind()),
-                // As if it were not there.
+                // None is the same as a missing option.
                 _ if value.is_none() => {}
                 "model" => {
                     own.model = of_name(py, &key, &Model::ALL, Model::name, value.extract()?)?;
@@ -219,12 +219,12 @@ impl Scene {
         &self.loaded.valid
     }
 
-    /// An error of a render, at its place in the scene.
+    /// Returns the exception of a render's error, at its place in the scene.
     pub(crate) fn failure(&self, py: Python<'_>, error: RenderError) -> PyErr {
         errors::render(py, error, |problems| self.loaded.report(problems))
     }
 
-    /// What `make` makes of the scene and the options.
+    /// Runs `make` on the scene with the options, on a thread of its own.
     fn work<T: Send>(
         &self,
         py: Python<'_>,
@@ -246,12 +246,12 @@ impl Scene {
         });
         let made = made.and_then(|made| made.map_err(|error| self.failure(py, error)));
         let closed = heard.map(|listener| listener.call_method0("close"));
-        // What failed first is what is told.
+        // The first error is the one that is raised.
         made.and_then(|made| closed.transpose().map(|_| made))
     }
 
-    /// The scene that is traced: with the parameters that its accuracy takes, if it asks for one; and
-    /// then the queries of a pixel that are planned, by channel.
+    /// Returns the scene to trace, with the parameters that the planner chose for its accuracy, if it asks for
+    /// one; and in that case the planned queries of a pixel, by channel.
     pub(crate) fn traced(&self, py: Python<'_>) -> PyResult<(ValidScene, Option<[f64; 3]>)> {
         let fits = Memory::default().keep_plan(self.valid());
         fits.map_err(|error| errors::request(py, error))?;
@@ -269,7 +269,7 @@ impl Scene {
         })
     }
 
-    /// A pixel that is on the film; the middle one, unless one is asked for.
+    /// Returns the pixel `asked` if it is on the film; the middle one for `None`.
     pub(crate) fn pixel(&self, py: Python<'_>, asked: Option<[u32; 2]>) -> PyResult<[u32; 2]> {
         let film = self.valid().scene().film;
         let [x, y] = asked.unwrap_or([film.width / 2, film.height / 2]);
@@ -281,7 +281,7 @@ impl Scene {
         Err(errors::request(py, message))
     }
 
-    /// The scene's files with their contents.
+    /// Returns the scene's files with their contents.
     fn files(&self) -> PyResult<Held> {
         if let Some(held) = &self.held {
             return Ok(held.clone());
@@ -296,7 +296,7 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
-    /// What the scene is called.
+    /// The scene's name.
     #[getter]
     fn name(&self) -> &str {
         &self.valid().scene().name
@@ -349,7 +349,7 @@ impl Scene {
 
     /// Render the scene, and return a Picture.
     ///
-    /// What isn't given follows from the scene:
+    /// Options that are missing take their values from the scene:
     ///
     /// model: "real" (64-bit floating point), "fixed" (the oracle's program, on integers) or "gates" (its
     ///     circuit, every gate).

@@ -1,4 +1,4 @@
-//! Long work without the interpreter's lock: progress is told and Ctrl-C heard meanwhile.
+//! Runs long work without the interpreter's lock, and meanwhile reports progress and checks for Ctrl-C.
 
 use crate::errors;
 use pyo3::prelude::*;
@@ -10,15 +10,16 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-/// How often Python is asked whether it was interrupted, and told how far the work is.
+/// Interval at which the thread checks for Ctrl-C and reports progress.
 const TICK: Duration = Duration::from_millis(50);
 /// Bytes of the stack of the thread that works.
 const STACK: usize = 64 << 20;
 
-/// Paths that are traced between two looks at whether the work is still wanted.
+/// Number of paths traced between two checks for cancellation.
 const RUN: u64 = 1 << 12;
 
-/// The path indices below `paths` in runs, until the work is cancelled; nobody is handed what is there then.
+/// Splits the path indices below `paths` into runs, which end when the work is cancelled; its result is
+/// discarded then.
 pub(crate) fn runs(workers: Workers<'_>, paths: u64) -> impl Iterator<Item = Range<u64>> {
     (0..paths)
         .step_by(RUN as usize)
@@ -26,7 +27,7 @@ pub(crate) fn runs(workers: Workers<'_>, paths: u64) -> impl Iterator<Item = Ran
         .map(move |first| first..(first + RUN).min(paths))
 }
 
-/// How far the work is, in paths.
+/// Progress of the work, in paths.
 #[derive(Default)]
 struct Far {
     done: AtomicU64,
@@ -46,7 +47,7 @@ impl Far {
         }
     }
 
-    /// Tells `listener`, once there is something to tell.
+    /// Calls `listener` with the progress, once the total is known.
     fn pass_on(&self, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let total = self.total.load(Ordering::Relaxed);
         if let Some(listener) = listener.filter(|_| total > 0) {
@@ -56,7 +57,7 @@ impl Far {
     }
 }
 
-/// So many threads, at least one; none for as many as there are cores.
+/// Checks the number of threads, 1 to 4096; `None` stands for one for each core.
 pub(crate) fn threads(py: Python<'_>, asked: Option<usize>) -> PyResult<Option<NonZeroUsize>> {
     match asked {
         None => Ok(None),
@@ -68,8 +69,8 @@ pub(crate) fn threads(py: Python<'_>, asked: Option<usize>) -> PyResult<Option<N
     }
 }
 
-/// Does `work` on a thread of its own, and meanwhile hears Ctrl-C and calls `listener(done, total)`.
-/// What these raise ends the work.
+/// Runs `work` on a thread of its own; meanwhile checks for Ctrl-C and calls `listener(done, total)`.
+/// An exception of either cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: Option<NonZeroUsize>,
@@ -92,7 +93,7 @@ pub(crate) fn run<T: Send>(
                         cancel: Some(cancel),
                         progress: Some(&tell),
                     };
-                    // Nobody waits for it after an interruption.
+                    // After an interruption the channel is closed, so the error is ignored.
                     let _ = send.send(work(workers));
                 });
             if let Err(error) = started {

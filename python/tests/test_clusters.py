@@ -32,7 +32,7 @@ def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box, tmp_
                 if done:
                     begun.set()
 
-            # How many tiles were finished when each was killed.
+            # The number of tiles that were finished when each worker was killed.
             killed = []
 
             def kill():

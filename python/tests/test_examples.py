@@ -70,7 +70,7 @@ def test_the_notebook_runs_to_its_end_and_shows_what_the_book_says(tmp_path):
         notebook, timeout=300, resources={"metadata": {"path": tmp_path}}
     ).execute()
     for cell in notebook.cells:
-        # Bars of tqdm, which are gone at the end.
+        # Bars of tqdm are left out: they are gone at the end.
         if cell.cell_type == "code":
             cell.outputs = [one for one in cell.outputs if not is_a_bar(one)]
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]

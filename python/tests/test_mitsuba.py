@@ -8,7 +8,7 @@ import pytest
 import qrt
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Independent renderings by either, so that the errors of their means are known without a model of them.
+# Numbers of independent renderings by each, so that the errors of their means are known without a model.
 # Mitsuba's errors are the larger ones.
 OWN_RUNS, THEIR_RUNS = 8, 16
 
@@ -63,14 +63,14 @@ def test_mitsuba_agrees_within_its_standard_errors(name, mitsuba, tmp_path):
     own = [ours.render(estimator="exact", seed=seed).pixels for seed in range(OWN_RUNS)]
     assert theirs[0].shape == own[0].shape
 
-    # The film's mean. Of sixteen runs a standard error is itself a guess: with fifteen degrees of freedom,
-    # Student's t is within 4.5 but for once in 2,400.
+    # Compares the film's mean. A standard error of sixteen runs is itself a guess: with fifteen degrees of
+    # freedom, Student's t is within 4.5 but for once in 2,400.
     films = [[numpy.mean(run, axis=(0, 1)) for run in runs] for runs in (theirs, own)]
     difference, error = compared(*films)
     assert (abs(difference) < 4.5 * error).all(), (difference, error)
-    # An error of a few percent would be seen.
+    # The errors are small enough that a deviation of a few percent would be seen.
     assert (0 < error).all() and (error < 0.006 * numpy.mean(films[0], axis=0)).all(), error
-    # Pixels: within 3.5 but for 3 in 1,000. Where neither has an error, Mitsuba's numbers have 24 bits.
+    # Compares pixels: within 3.5 but for 3 in 1,000. Where neither has an error, Mitsuba's numbers have 24 bits.
     difference, error = compared(theirs, own)
     off = abs(difference) > 3.5 * error + 1e-6 * numpy.mean(theirs, axis=0)
     assert off.mean() < 0.015, off.mean()

@@ -1,4 +1,4 @@
-"""What pip has installed: one wheel for every Python, with its licences."""
+"""The package that pip has installed: one wheel for every Python, with its licences."""
 
 import importlib.metadata
 

@@ -130,7 +130,7 @@ def test_a_terminal_gets_a_bar_and_a_pipe_none(box_file):
         child = subprocess.Popen(words, stderr=childs)
         os.close(childs)
         text = b""
-        # At its end, Linux says that there is no more by an error.
+        # At the end of the output, Linux reports an error.
         try:
             while more := os.read(own, 4096):
                 text += more
@@ -146,7 +146,7 @@ def test_a_terminal_gets_a_bar_and_a_pipe_none(box_file):
 
 
 def test_a_notebook_gets_a_bar(box, monkeypatch):
-    """What IPython says of itself in a kernel, and a bar that keeps what it is told."""
+    """A kernel's IPython, as far as qrt looks at it, and a bar that keeps its values."""
     import types
 
     import tqdm.auto
@@ -170,7 +170,7 @@ def test_a_notebook_gets_a_bar(box, monkeypatch):
     box.render()
     (bar,) = bars
     assert (bar.total, bar.n, bar.closed) == (143 << 10, 143 << 10, True)
-    # IPython without a kernel is a terminal, whose standard error is none here.
+    # IPython without a kernel runs in a terminal, but standard error is not a terminal here.
     monkeypatch.delattr(shell, "kernel")
     box.render()
     assert len(bars) == 1
@@ -192,7 +192,7 @@ def test_what_ended_a_render_is_told_though_its_bar_cannot_be_closed(box, monkey
 
 
 def while_others_run(work):
-    """How often another thread got to run while `work` did, and how many seconds it took."""
+    """Returns how often another thread got to run while `work` did, and the seconds that it took."""
     counted, stop = [0], threading.Event()
 
     def count():
@@ -222,7 +222,7 @@ def test_other_threads_run_meanwhile(box):
         lambda: qrt.merge(parts),
         lambda: device.phases(24, 2_000_000),
     ):
-        # A thread that must wait for the interpreter gets to run every 5 ms at the most.
+        # A thread that waits for the interpreter gets to run every 5 ms at the most.
         turns, took = while_others_run(work)
         assert took > 0.05, took
         assert turns > 5, (turns, took)
@@ -360,7 +360,7 @@ def test_signatures_name_every_option(box):
     tile = inspect.signature(qrt.Scene.render_tile).parameters
     assert list(tile)[:3] == ["self", "k", "n"]
     assert {name: one.default for name, one in list(tile.items())[3:]} == defaults
-    # They are what is taken where nothing is given.
+    # The defaults in the signature are the values used for missing options.
     given = box.render(crop=(0, 0, 3, 3)).pixels
     named = box.render(**(defaults | {"crop": (0, 0, 3, 3)})).pixels
     assert numpy.array_equal(given, named)

@@ -29,7 +29,7 @@ def test_an_oracle_costs_what_the_command_says(command, box):
         qrt.parse(box.to_yaml(), {"budget": {"toffoli": 10}}).oracle("r")
 
 
-# The class of a pixel's oracle, by whether it sees the lamp of the lit box.
+# The class of a pixel's oracle depends on whether the pixel sees the lamp of the lit box.
 @pytest.mark.parametrize(
     "scene, pixel, pixel_class",
     [
@@ -124,8 +124,8 @@ def test_the_command_counts_the_same_numbers(command, dot):
     assert math.sin(math.pi * likeliest["theta"]) ** 2 == pytest.approx(oracle.amplitude)
 
 
-# A lamp in front of some of the paths of one pixel: S/N is 3/8, on 17 qubits. No power of the iterate that
-# is tried leaves that probability as it is, so that no other operator passes for it.
+# A lamp in front of some of the paths of one pixel: S/N is 3/8, on 17 qubits. Every tested power of the
+# iterate changes that probability, so that no other operator passes the test.
 EDGE = """
 name: edge
 camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
@@ -185,7 +185,7 @@ PARTS = ("oracle", "grover", "counting")
 
 
 def gates_of(oracle, part):
-    """How often each name of a gate is in the OpenQASM 2 of a part; controls count as part of a name."""
+    """Counts the gates in the OpenQASM 2 of a part by name; controls count as part of a name."""
     names = re.findall(r"^([a-z0-9]+)(?:\([^)]*\))? \w+\[", oracle.qasm(2, part), re.MULTILINE)
     return collections.Counter(name for name in names if name not in ("qreg", "creg", "measure"))
 

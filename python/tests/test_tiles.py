@@ -55,7 +55,7 @@ def test_there_is_no_picture_of_parts_that_make_none(box):
 
 def test_processes_render_the_picture(box):
     whole = box.render(estimator="exact")
-    # A process that is forked from one with threads may wait for a lock that nobody has.
+    # A process that is forked from one with threads may wait for a lock that no thread will release.
     context = multiprocessing.get_context("spawn")
     told = []
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:

@@ -32,7 +32,7 @@ pub(crate) struct SceneArgs {
 }
 
 impl SceneArgs {
-    /// The memory that the work may take.
+    /// Returns the memory budget.
     pub(crate) fn memory(&self) -> Memory {
         Memory::of(self.max_memory)
     }
@@ -43,7 +43,7 @@ impl SceneArgs {
     }
 }
 
-/// Reads a scene with these keys overridden, which may read files below these folders, and checks it.
+/// Reads `scene` with the keys `sets` overridden and checks it; it may read files below `allow_files`.
 pub(crate) fn load(
     scene: &Path,
     sets: &[String],
@@ -73,7 +73,7 @@ pub(crate) struct ThreadsArgs {
 }
 
 impl ThreadsArgs {
-    /// How many there will be.
+    /// Returns the number of threads: the given one, or one for each core.
     pub(crate) fn or_cores(&self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         self.count().map_or_else(cores, NonZeroUsize::get)
@@ -84,7 +84,7 @@ impl ThreadsArgs {
     }
 }
 
-/// A parser of the names of these values, each with its line of help.
+/// Returns a parser of the names of `values`, each with its line of help.
 pub(crate) fn choice<T: Copy + Send + Sync + 'static, const N: usize>(
     values: [(T, &'static str); N],
     name: fn(T) -> &'static str,
@@ -98,7 +98,7 @@ pub(crate) fn choice<T: Copy + Send + Sync + 'static, const N: usize>(
     })
 }
 
-/// A pixel on the command line, such as `10,20`.
+/// Parses a pixel on the command line, for example `10,20`.
 pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
     numbers(text, "two whole numbers, such as 10,20")
 }
@@ -119,7 +119,7 @@ pub(crate) fn on_film([x, y]: [u32; 2], film: Film) -> Result<[u32; 2], Failure>
     )))
 }
 
-/// So many whole numbers, with commas between them; `such_as` these.
+/// Parses `N` whole numbers with commas between them; `such_as` is the error message.
 pub(crate) fn numbers<const N: usize>(text: &str, such_as: &str) -> Result<[u32; N], String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());

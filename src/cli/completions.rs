@@ -1,4 +1,4 @@
-//! `qrt completions`: what the Tab key writes.
+//! `qrt completions`: scripts for completion with the Tab key.
 
 use super::failure::Failure;
 use super::{Cli, terminal};
@@ -18,7 +18,7 @@ pub(crate) struct CompletionsArgs {
 }
 
 pub(crate) fn run(args: CompletionsArgs) -> Result<(), Failure> {
-    // Not straight to standard output: the generator panics if it can't write.
+    // The generator panics if it cannot write, so it does not write straight to standard output.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "qrt", &mut script);
     terminal::print(&String::from_utf8_lossy(&script))

@@ -1,4 +1,4 @@
-//! `qrt count`: what the phase register would read, without a scene.
+//! `qrt count`: the distribution of the phase register's outcomes, without a scene.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -22,13 +22,13 @@ const WINDOWS: [(Window, &str); 2] = [
     ),
 ];
 
-/// Above this many phase bits the peak stands for all outcomes, unless some are asked for.
+/// Largest number of phase bits for which all outcomes are listed; above it, those near the peak.
 const MAX_LISTED_BITS: u32 = 16;
-/// Outcomes on either side of the peak.
+/// Number of outcomes listed on either side of the peak.
 const PEAK_REACH: u64 = 16;
-/// Above this many indices the posterior is not added up index by index.
+/// Largest number of indices for which the posterior is summed index by index.
 const MAX_POSTERIOR_IDS: u64 = 1 << 16;
-/// Numbers of good indices shown of a posterior.
+/// Number of most likely values of S that the output shows of a posterior.
 const LIKELIEST: usize = 10;
 
 /// The distribution of quantum counting's outcomes, and draws from it
@@ -72,7 +72,7 @@ pub(crate) struct CountArgs {
     json: bool,
 }
 
-/// Which outcomes are listed.
+/// The selection of outcomes that are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shown {
     All,
@@ -101,12 +101,11 @@ struct Posterior {
     likeliest: Vec<(u64, f64)>,
 }
 
-/// Answers on standard output.
+/// Prints the result on standard output.
 ///
 /// # Errors
 ///
-/// Counts or outcomes out of range, or an output that cannot be written. (A reader that has seen
-/// enough is no error.)
+/// Counts or outcomes out of range, or an output that cannot be written. A closed pipe is no error.
 pub(crate) fn run(args: &CountArgs) -> Result<(), Failure> {
     let answer = Answer::new(args)?;
     let mut out = io::BufWriter::new(io::stdout().lock());

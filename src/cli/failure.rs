@@ -1,4 +1,4 @@
-//! How a command fails.
+//! Errors of a command.
 
 use qrt_core::syntax::Report;
 use qrt_runtime::counting::CountingError;
@@ -12,14 +12,14 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::{fmt, io};
 
-/// How a command fails.
+/// An error of a command.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line asks for what does not exist or does not go together.
+    /// The command line names what does not exist, or combines what does not go together.
     Usage(String),
     /// The scene is wrong.
     Scene(Box<Report>),
-    /// The job failed, for this reason.
+    /// The job failed; the text is the reason.
     Job(String),
 }
 

@@ -1,4 +1,4 @@
-//! What can be known of files before the work that fills them.
+//! Checks of output files before the work that fills them.
 
 use super::failure::Failure;
 use super::terminal;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Name of standard output in place of a file.
 pub(crate) const STDOUT: &str = "-";
 
-/// A file that a command writes: as it was asked for, and where that leads.
+/// A file that a command writes: the path as the user gave it, and the place to which it leads.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
     asked: PathBuf,
@@ -18,10 +18,10 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Finds out where `asked` leads.
+    /// Resolves the path `asked`.
     ///
     /// # Errors
-    /// A folder is in its place, there is none to write to, or it is `-`.
+    /// `asked` is a folder, its folder does not exist, or it is `-`.
     pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
         keep_off_stdout(asked)?;
         let place = Place::of(asked).map_err(|error| Failure::file(asked, &error))?;
@@ -33,10 +33,10 @@ impl Output {
         Ok(Self { asked, place })
     }
 
-    /// The same, but that `-` is standard output.
+    /// Resolves the path `asked`, where `-` is standard output.
     ///
     /// # Errors
-    /// As [`Output::new`].
+    /// Same as [`Output::new`].
     pub(crate) fn or_stdout(asked: &Path) -> Result<Self, Failure> {
         if asked != Path::new(STDOUT) {
             return Self::new(asked);
@@ -47,23 +47,23 @@ impl Output {
         })
     }
 
-    /// True if it is standard output, asked for as `-`.
+    /// True if the output is standard output, given as `-`.
     pub(crate) fn is_stdout(&self) -> bool {
         self.place.path() == Path::new(STDOUT)
     }
 
-    /// That it can be written, as far as that can be known beforehand.
+    /// Checks that the file can be written, as far as that can be known beforehand.
     ///
     /// # Errors
-    /// What the file system says.
+    /// The error of the file system.
     pub(crate) fn try_writing(&self) -> Result<(), Failure> {
         try_writing(&self.place).map_err(|error| Failure::file(&self.asked, &error))
     }
 
-    /// That it is not named as checkpoints are, which hold the work of renders that are not finished.
+    /// Checks that the name does not end as the names of checkpoints, which keep unfinished renders.
     ///
     /// # Errors
-    /// It is.
+    /// The name ends in that way.
     pub(crate) fn keep_off_checkpoints(&self) -> Result<(), Failure> {
         let named = |path: &Path| path.as_os_str().to_string_lossy().ends_with(PARTIAL);
         if named(&self.asked) || named(self.place.path()) {
@@ -76,16 +76,16 @@ impl Output {
         Ok(())
     }
 
-    /// Whether it is a device or a pipe.
+    /// True if the output is a device or a pipe.
     pub(crate) fn is_device(&self) -> bool {
         self.place.is_device()
     }
 
-    /// The path to write to. A folder that has vanished since the beginning is made again, so that no
-    /// work is lost with it.
+    /// Returns the path to write to. Creates its folder again if the folder has vanished since the beginning,
+    /// so that no work is lost.
     ///
     /// # Errors
-    /// What the file system says.
+    /// The error of the file system.
     pub(crate) fn path(&self) -> Result<&Path, Failure> {
         let path = self.place.path();
         if self.is_device() {
@@ -102,7 +102,7 @@ impl Output {
     }
 }
 
-/// Refuses `-` in place of what standard output can't take.
+/// Refuses `-` for an output that standard output cannot take.
 ///
 /// # Errors
 /// `asked` is `-`.
@@ -114,11 +114,11 @@ pub(crate) fn keep_off_stdout(asked: &Path) -> Result<(), Failure> {
     Err(Failure::Usage(message.to_owned()))
 }
 
-/// Refuses to write one of `outputs` over another or over one of `inputs`, whatever they are called.
-/// Devices take what is written to them one after another.
+/// Refuses to write one of `outputs` over another or over one of `inputs`, under whatever names.
+/// Several outputs may go to the same device, which takes them one after another.
 ///
 /// # Errors
-/// The first that would be.
+/// The first output that would be written over another file.
 pub(crate) fn keep_apart<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: &[&Output],
@@ -136,7 +136,7 @@ pub(crate) fn keep_apart<'a>(
         Err(Failure::Usage(message))
     };
     for input in inputs {
-        // One that can't be found is told of when it is read.
+        // A missing input is reported when it is read.
         if let Ok(place) = Place::of(input)
             && let Some(output) = outputs
                 .iter()
@@ -154,7 +154,7 @@ pub(crate) fn keep_apart<'a>(
     Ok(())
 }
 
-/// A scene's result in the current folder: `folder/box.yaml` and `png` make `box.png`.
+/// Returns a scene's result in the current folder: `folder/box.yaml` and `png` give `box.png`.
 pub(crate) fn named_after(scene: &Path, extension: &str) -> PathBuf {
     let mut name = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
     name.push(".");

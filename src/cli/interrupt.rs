@@ -1,19 +1,19 @@
-//! Signals: Ctrl-C, and the limit on the size of files.
+//! Handling of signals: Ctrl-C, and the limit on the size of files.
 
 use super::failure::Failure;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether there is something to finish or to keep.
+/// True once there is work to finish or to keep.
 static BEGUN: AtomicBool = AtomicBool::new(false);
 
-/// From here on there is something to finish or to keep when Ctrl-C comes.
+/// Marks that from here on there is work to finish or to keep when Ctrl-C comes.
 pub(crate) fn begun() {
     BEGUN.store(true, Ordering::Relaxed);
 }
 
-/// A flag that the first Ctrl-C sets. The second ends the process at once, as the first does before anything
-/// has [begun](begun); a picture's finished tiles are safe then, too.
+/// Returns a flag that the first Ctrl-C sets. The second Ctrl-C ends the process at once, and so does the
+/// first before [`begun`](begun) was called. In both cases a picture's finished tiles are safe.
 pub(crate) fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);
@@ -32,12 +32,12 @@ pub(crate) fn cancel_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     }
 }
 
-/// Lets a write beyond the limit on the size of files (`ulimit -f`) fail as any other does, and be
-/// told of. Otherwise the system would end the process without a word.
+/// Makes a write beyond the limit on the size of files (`ulimit -f`) fail with an ordinary error, which the
+/// command reports. Otherwise the system would end the process without a message.
 #[cfg(unix)]
 pub(crate) fn outlive_file_limits() {
-    // SAFETY: no handler is installed, so that nothing runs in a signal's context; and no other
-    // thread was started yet that could change what this signal does.
+    // SAFETY: `SIG_IGN` installs no handler, so no code runs in a signal's context; and no other
+    // thread was started yet that could change the disposition of this signal.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
     }

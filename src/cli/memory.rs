@@ -1,12 +1,12 @@
-//! What work takes is estimated before it begins: what would take more memory than may be had is refused,
-//! with the number, and with what to lower. Compiling a circuit that takes long is told of.
+//! Preflight checks of memory: work that would exceed the memory budget is refused before it begins, with
+//! its estimate and the parameters to lower. Slow compilation of a circuit is announced.
 
 use super::failure::Failure;
 use super::time;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::memory::{CircuitSize, CircuitWork, Memory, MemoryError};
 
-/// A size such as `500M`, `1.5G` or `4GiB`: units are powers of 1,024.
+/// Parses a size, for example `500M`, `1.5G` or `4GiB`: units are powers of 1,024.
 pub(crate) fn size(text: &str) -> Result<u64, String> {
     let refused = || format!("`{text}` is no size: write one such as 500M or 4G");
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -26,25 +26,25 @@ pub(crate) fn size(text: &str) -> Result<u64, String> {
     }
 }
 
-/// The refusal, with the flag that allows more.
+/// Returns the refusal, with the flag that allows more memory.
 pub(crate) fn refused(error: &MemoryError) -> Failure {
     Failure::Usage(format!("{error}, or allow more with --max-memory"))
 }
 
-/// That the circuits fit that are compiled to plan for an accuracy, if the scene asks for one.
+/// Checks that the circuits that the planner compiles for an accuracy fit, if the scene has an `accuracy`.
 ///
 /// # Errors
-/// They do not.
+/// The circuits do not fit.
 pub(crate) fn keep_plan(memory: Memory, scene: &ValidScene) -> Result<(), Failure> {
     let size = memory.keep_plan(scene).map_err(|error| refused(&error))?;
     tell(size, scene);
     Ok(())
 }
 
-/// That the oracle's circuit fits, which grows with the scene's faces.
+/// Checks that the oracle's circuit, which grows with the scene's faces, fits.
 ///
 /// # Errors
-/// It does not.
+/// The circuit does not fit.
 pub(crate) fn keep_circuit(
     memory: Memory,
     scene: &ValidScene,
@@ -55,7 +55,7 @@ pub(crate) fn keep_circuit(
     Ok(())
 }
 
-/// Tells how long compiling takes, if that is long.
+/// Prints the estimated time of compilation if it is long.
 fn tell(size: Option<CircuitSize>, scene: &ValidScene) {
     if let Some(size) = size {
         let faces = scene.polygons().len();

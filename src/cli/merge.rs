@@ -1,4 +1,4 @@
-//! `qrt merge`: parts of a picture become the picture.
+//! `qrt merge`: puts the parts of a picture together.
 
 use super::args::load;
 use super::failure::Failure;

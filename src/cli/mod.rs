@@ -86,7 +86,7 @@ pub(crate) fn main() -> ExitCode {
             .map_err(|error| Failure::Usage(error.to_string()))
             .and_then(|_| run(command)),
         Err(usage) if usage.use_stderr() => usage.exit(),
-        // Help, or the version: what was asked for.
+        // The user asked for help or the version, so this is no error.
         Err(help) => terminal::stream(|_| help.print()),
     };
     match done {

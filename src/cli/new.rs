@@ -1,4 +1,4 @@
-//! `qrt new`: a first scene.
+//! `qrt new`: writes a first scene.
 
 use super::failure::Failure;
 use super::files::Output;
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &NewArgs) -> Result<(), Failure> {
     }
 }
 
-/// `box` and `box.yaml` are `box.yaml`; a dot elsewhere is a part of the name.
+/// Appends `.yaml` unless `name` ends in `.yaml` or `.yml`; a dot elsewhere is a part of the name.
 fn file(name: &Path) -> Result<PathBuf, Failure> {
     let Some(last) = name.file_name() else {
         let message = format!("`{}` names no file", name.display());

@@ -1,10 +1,10 @@
-//! A path, in the words of a message.
+//! Describes a path in the words of a message.
 
 use qrt_core::valid::ValidScene;
 use qrt_runtime::predicates::trace_path_of;
 use qrt_runtime::render::Model;
 
-/// A line on what the rays of a path meet, by model, seed, pixel and index; empty if it can't be traced.
+/// Returns a line on the hits of a path's rays, by model, seed, pixel and index; empty if tracing fails.
 pub(super) fn in_words(
     scene: &ValidScene,
     (model, seed, pixel, id): (Model, u64, [u32; 2], u64),

@@ -1,4 +1,4 @@
-//! A picture's files, whether it was rendered at once or in parts.
+//! Output files of a picture, whether it was rendered at once or in parts.
 
 use super::failure::Failure;
 use super::files::{Output, STDOUT, keep_apart};
@@ -10,7 +10,7 @@ use qrt_runtime::render::Rendered;
 use qrt_runtime::replace_file::checkpoint_of;
 use std::path::{Path, PathBuf};
 
-/// What is written beside a picture.
+/// Options for the files that are written beside a picture.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct BesideArgs {
     /// Stops of exposure: the picture times 2^STOPS; for .png only
@@ -25,22 +25,22 @@ pub(crate) struct BesideArgs {
     counts: Option<PathBuf>,
 }
 
-/// The files that are written.
+/// The output files.
 pub(crate) struct Outputs {
     /// The picture, or a part of it.
     pub(crate) picture: Output,
     stats: Option<Output>,
     counts: Option<Output>,
-    /// Where finished tiles are kept; none for a picture that goes to a pipe or a device, beside which
-    /// there is no place.
+    /// File that keeps finished tiles; `None` if the picture goes to a pipe or a device, which has no folder
+    /// for it.
     pub(crate) checkpoint: Option<PathBuf>,
 }
 
 impl Outputs {
-    /// Finds out where the files lead.
+    /// Resolves the paths of the output files.
     ///
     /// # Errors
-    /// A folder is in the place of one, or there is none to write to.
+    /// An output is a folder, or its folder does not exist.
     pub(crate) fn new(picture: &Path, beside: &BesideArgs) -> Result<Self, Failure> {
         let output = |path: &PathBuf| Output::or_stdout(path);
         let asked = Output::new(picture)?;
@@ -59,16 +59,16 @@ impl Outputs {
         })
     }
 
-    /// The files that were asked for.
+    /// Returns the files that the user asked for.
     pub(crate) fn asked(&self) -> impl Iterator<Item = &Output> {
         let others = self.stats.iter().chain(&self.counts);
         std::iter::once(&self.picture).chain(others)
     }
 
-    /// Prints what is said of the picture: on standard error, where standard output is one of the files.
+    /// Prints the summary of the picture, on standard error if standard output is one of the files.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The summary cannot be written.
     pub(crate) fn tell(&self, summary: &str) -> Result<(), Failure> {
         if self.asked().any(Output::is_stdout) {
             terminal::note(summary.trim_end());
@@ -77,10 +77,10 @@ impl Outputs {
         terminal::print(summary)
     }
 
-    /// That none is one of `inputs`, another of these, or another picture's checkpoint.
+    /// Checks that no output is one of `inputs`, another output, or another picture's checkpoint.
     ///
     /// # Errors
-    /// The first that is.
+    /// The first output that is.
     pub(crate) fn keep_off<'a>(
         &self,
         inputs: impl IntoIterator<Item = &'a Path>,
@@ -92,10 +92,10 @@ impl Outputs {
     }
 }
 
-/// That the picture keeps layers, if they are asked for.
+/// Checks that the picture's format keeps layers, if they were asked for.
 ///
 /// # Errors
-/// Its format has none.
+/// The format has no layers.
 pub(crate) fn keeps_layers(asked: bool, picture: &Path, encoding: Encoding) -> Result<(), Failure> {
     if !asked || encoding == Encoding::Exr {
         return Ok(());
@@ -106,7 +106,7 @@ pub(crate) fn keeps_layers(asked: bool, picture: &Path, encoding: Encoding) -> R
     )))
 }
 
-/// Writes the picture with its layers, and what is asked beside it; how many pixels were clipped.
+/// Writes the picture with its layers and the files beside it; returns the number of clipped pixels.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -137,7 +137,7 @@ pub(crate) fn write(
     Ok(clipped)
 }
 
-/// What is said of a picture.
+/// Returns the summary of a picture.
 pub(crate) fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> String {
     let Rendered { image, paths, .. } = rendered;
     let clipped = match clipped {
@@ -162,7 +162,7 @@ pub(crate) fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> Strin
     ) + &search_summary(rendered)
 }
 
-/// What the search for primary hits took; nothing if there was none.
+/// Describes the cost of the search for primary hits; empty if there was none.
 fn search_summary(rendered: &Rendered) -> String {
     let Some(searched) = rendered.searched else {
         return String::new();

@@ -1,4 +1,4 @@
-//! The parameters of a scene that asks for an accuracy.
+//! Parameters of a scene that asks for an accuracy.
 
 use super::failure::Failure;
 use super::terminal;
@@ -6,10 +6,11 @@ use qrt_core::valid::ValidScene;
 use qrt_runtime::plan::{Figures, Options, Plan, plan};
 use serde_json::{Value, json};
 
-/// Chooses the parameters of a scene that asks for an accuracy, and says on standard error which,
-/// unless all is to be `quiet`.
+/// Chooses the parameters of a scene that asks for an accuracy, and prints the plan on standard error
+/// unless `quiet`.
 ///
 /// # Errors
+/// No parameters keep the accuracy.
 /// An accuracy that no parameters keep.
 pub(crate) fn of(
     scene: &ValidScene,
@@ -23,7 +24,7 @@ pub(crate) fn of(
     Ok(planned)
 }
 
-/// What was chosen, and what is expected of it.
+/// Returns the chosen parameters and the expected errors.
 pub(crate) fn json(figures: &Figures) -> Value {
     let parts = figures.parts;
     json!({

@@ -6,29 +6,29 @@ use qrt_runtime::workers::Progress;
 use std::fmt::Write;
 use std::time::Duration;
 
-/// A bar on standard error if that is a terminal; else one that isn't seen.
+/// A progress bar on standard error; hidden if that is not a terminal.
 pub(crate) struct Bar {
     bar: ProgressBar,
     style: String,
 }
 
 impl Bar {
-    /// A bar of paths, if it is `wanted`.
+    /// Returns a bar that counts paths; hidden unless `wanted`.
     pub(crate) fn paths(wanted: bool) -> Self {
         Self::new(wanted, "{human_pos} of {human_len} paths")
     }
 
-    /// A bar of the rows of a table.
+    /// Returns a bar that counts the rows of a table.
     pub(crate) fn settings(wanted: bool) -> Self {
         Self::new(wanted, "{pos} of {len} settings")
     }
 
-    /// A bar of the gates of a circuit.
+    /// Returns a bar that counts the gates of a circuit.
     pub(crate) fn gates(wanted: bool) -> Self {
         Self::new(wanted, "{human_pos} of {human_len} gates")
     }
 
-    /// Of what is not counted.
+    /// Returns a bar for work without a count.
     pub(crate) fn setting_up() -> Self {
         let bar = Self::new(true, "");
         bar.set_up();
@@ -36,7 +36,7 @@ impl Bar {
     }
 
     fn new(wanted: bool, what: &str) -> Self {
-        // Hidden by itself where there is no terminal.
+        // indicatif hides the bar itself where there is no terminal.
         let target = if wanted {
             ProgressDrawTarget::stderr()
         } else {
@@ -47,8 +47,8 @@ impl Bar {
         Self { bar, style }
     }
 
-    /// Shows, until there is something to count, how long it takes to get there. To be called once nothing else
-    /// is to be told before that.
+    /// Shows a spinner and the elapsed time until there is something to count. Call it after the last message
+    /// that is printed before that.
     pub(crate) fn set_up(&self) {
         self.style("{spinner} setting up, {elapsed}");
         self.bar.enable_steady_tick(Duration::from_millis(250));
@@ -69,7 +69,7 @@ impl Bar {
                 self.style(&self.style);
                 self.bar.set_length(total);
                 self.bar.set_position(resumed);
-                // What was done before says nothing about the time that the rest takes.
+                // Resumed work says nothing about the time that the rest takes.
                 self.bar.reset_eta();
                 self.bar.enable_steady_tick(Duration::from_millis(250));
             }
@@ -83,9 +83,9 @@ impl Bar {
     }
 }
 
-/// The time left, once something is finished to judge by.
+/// Writes the time left, or `?` until the rate is known.
 fn left(state: &ProgressState, out: &mut dyn Write) {
-    // What can't be shown on a terminal isn't.
+    // Progress on a terminal is best effort, so errors are ignored.
     let _ = if state.per_sec() > 0.0 {
         write!(out, "{:#}", HumanDuration(state.eta()))
     } else {

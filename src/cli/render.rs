@@ -1,4 +1,4 @@
-//! `qrt render`: a scene becomes a picture.
+//! `qrt render`: renders a scene to a picture.
 
 use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
@@ -96,20 +96,20 @@ pub(crate) struct RenderArgs {
     /// .png, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// What traces the paths
+    /// The model that traces the paths
     #[arg(long, value_parser = choice(MODELS, Model::name), default_value = "real")]
     model: Model,
-    /// How the good indices are counted; exact takes them all, without noise [default: the scene's]
+    /// The estimator of the number of good indices; exact takes them all, without noise [default: the scene's]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Estimator::NAMES))]
     estimator: Option<String>,
-    /// How pixels get their colours
+    /// The way in which pixels get their colours
     #[arg(long, value_parser = choice(COLOURS, Colour::name), default_value = "three-runs")]
     colour: Colour,
     /// Noise of the device that counts: the probability that a query destroys the state, and that a
     /// measured bit is wrong; either may be left out
     #[arg(long, value_name = "depolarising=P,readout=P", value_parser = noise)]
     noise: Option<Noise>,
-    /// How a path's primary hit is found
+    /// The way in which a path's primary hit is found
     #[arg(
         long,
         value_parser = choice(VISIBILITIES, Visibility::name),
@@ -119,7 +119,7 @@ pub(crate) struct RenderArgs {
     /// The probability with which a ray's search may miss the nearest face [default: 0.001]
     #[arg(long, value_name = "P")]
     search_failure: Option<f64>,
-    /// What a ray's search begins with [default: coherent]
+    /// The face that a ray's search begins with [default: coherent]
     #[arg(long, value_parser = choice(GUESSES, Guess::name))]
     first_guess: Option<Guess>,
     /// Another seed gives other noise
@@ -190,7 +190,7 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers(text, "four whole numbers, such as 10,20,4,4")
 }
 
-/// What is made of a scene.
+/// The output made from a scene.
 #[derive(Clone, Copy)]
 enum Target {
     Picture(Encoding),
@@ -214,7 +214,7 @@ impl Target {
         Ok(Self::Part(portion))
     }
 
-    /// How many portions of the picture there are.
+    /// Returns the number of portions of the picture.
     fn portions(self) -> u32 {
         match self {
             Self::Picture(_) => 1,
@@ -228,14 +228,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if !args.watch {
         return render(args, &cancel, &mut Vec::new());
     }
-    // There is nothing to finish, and always something to end.
+    // Watching never finishes by itself, so the first Ctrl-C sets the flag instead of ending the process.
     interrupt::begun();
     watch(&args.scene.scene, &cancel, |outdated, files| {
         render(args, outdated, files)
     })
 }
 
-/// Renders until `cancel` says otherwise; the files that the scene names are added to `files`.
+/// Renders until `cancel` is set; adds the files that the scene names to `files`.
 fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
     let visibility = args.visibility()?;
     let output = args
@@ -245,14 +245,14 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     let target = Target::of(args, &output)?;
     let mut outputs = Outputs::new(&output, &args.beside)?;
     if args.watch {
-        // What is out of date is not gone on with.
+        // A watched render restarts from the changed scene, so no checkpoint is kept.
         outputs.checkpoint = None;
     }
     outputs.keep_off([&*args.scene.scene])?;
     let loaded = args.scene.load()?;
     let scene = &loaded.valid;
     files.extend(scene.files().iter().cloned());
-    // Known before the work, not after it.
+    // Check the outputs before the work, not after it.
     outputs.keep_off(scene.files().iter().map(PathBuf::as_path))?;
     outputs.asked().try_for_each(Output::try_writing)?;
     Metadata::new().set("scene", scene.scene().name.as_str())?;
@@ -276,7 +276,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         resume: args.resume,
         ..Options::default()
     };
-    // Before anything that takes long, or is told to take long.
+    // These checks come before all slow work and before messages about its time.
     let film = scene.scene().film;
     let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
     let size = [width.min(film.width), height.min(film.height)];
@@ -329,7 +329,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         Ok(told) => told,
         Err(error) => return Err(kept(error, checkpoint, &outputs)),
     };
-    // Only now is everything safe. Until here nobody else could begin with the checkpoint.
+    // Only now is everything safe. Until here the lock keeps other processes off the checkpoint.
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove().map_err(RenderError::from)?;
     }
@@ -356,7 +356,7 @@ fn part_summary(output: &Path, part: &PicturePart) -> String {
     )
 }
 
-/// What was rendered can't be written: says where it is kept.
+/// Returns the error for an output that cannot be written, with the place that keeps the finished work.
 fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Failure {
     let there = checkpoint.is_some_and(|checkpoint| checkpoint.close().unwrap_or(false));
     match &outputs.checkpoint {
@@ -369,7 +369,7 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
     }
 }
 
-/// Warns if the fraction of pixels that are expected to be grey is large enough to be seen.
+/// Warns if the fraction of pixels expected to be grey is large enough to be seen.
 fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
     const SHOWN: f64 = 1e-3;
     const ENOUGH: u32 = 10;
@@ -377,7 +377,7 @@ fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
         return;
     }
     let counting = traced.scene().counting;
-    // Of a plan, it is a part.
+    // The planner chooses the repetitions itself.
     let enough = if options.plan.is_some() {
         String::new()
     } else {
@@ -394,7 +394,7 @@ fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
     ));
 }
 
-/// Tells of what nobody would wait for: it may be meant, but hardly is.
+/// Warns if the estimated time is long; the user may still have meant it.
 fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
     let film = scene.scene().film;
     let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
@@ -402,12 +402,12 @@ fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
     time::tell_of_paths(scene, pixels, 1.0, &[args.model], args.threads.or_cores());
 }
 
-/// Why there is no picture: at its place in the scene, or with what the user can do.
+/// Returns the reason that there is no picture: at its place in the scene, or with the user's remedy.
 fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failure {
     match error {
         RenderError::OutOfBounds { pixel, id, .. } => {
             let path = (options.model, options.seed, pixel, id);
-            // Under other parameters, it is another path.
+            // The planner's scene has other parameters, and so other paths.
             let rendered = options.plan.map_or(&loaded.valid, |plan| &plan.scene);
             Failure::Job(format!("{error}{}", path::in_words(rendered, path)))
         }

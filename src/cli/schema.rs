@@ -1,4 +1,4 @@
-//! `qrt schema`: the scene format for editors.
+//! `qrt schema`: prints the scene format for editors.
 
 use super::failure::Failure;
 use super::terminal;

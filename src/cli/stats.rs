@@ -1,4 +1,4 @@
-//! What `--stats` writes.
+//! The statistics that `--stats` writes.
 
 use super::failure::Failure;
 use qrt_runtime::memory::peak_resident_bytes;
@@ -66,7 +66,7 @@ fn stats(rendered: &Rendered, clipped: u64) -> Value {
     })
 }
 
-/// By number of strata, the channels of pixels that were counted in so many.
+/// Returns, for each number of strata, the number of channels of pixels that were counted in that many.
 fn strata_used(rendered: &Rendered) -> Value {
     let used = rendered.strata_used().into_iter();
     used.map(|(strata, channels)| (strata.to_string(), json!(channels)))
@@ -74,7 +74,7 @@ fn strata_used(rendered: &Rendered) -> Value {
         .into()
 }
 
-/// What the search for primary hits took; null if there was none.
+/// Returns the cost of the search for primary hits; null if there was none.
 fn search(rendered: &Rendered) -> Value {
     let Some(searched) = rendered.searched else {
         return Value::Null;
@@ -99,7 +99,7 @@ fn search(rendered: &Rendered) -> Value {
     })
 }
 
-/// Of the paths that were traced, not taken from a checkpoint.
+/// Returns the throughput of traced paths; paths taken from a checkpoint do not count.
 pub(crate) fn paths_per_second(rendered: &Rendered) -> f64 {
     let traced = rendered.paths - rendered.resumed_paths;
     traced as f64 / rendered.seconds.max(1e-9)

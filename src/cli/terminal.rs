@@ -1,5 +1,5 @@
-//! Standard output and standard error. A reader that has gone away is never a panic: on standard
-//! output it ends the output quietly, and what can't be said on standard error isn't said.
+//! Standard output and standard error. A closed pipe never causes a panic: on standard output it ends
+//! the output quietly, and on standard error the message is dropped.
 
 use super::failure::Failure;
 use qrt_runtime::image::ImageError;
@@ -9,12 +9,12 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 /// Writes `text` to standard output.
 ///
 /// # Errors
-/// If it can't be written, other than to a reader that has seen enough.
+/// Standard output can't be written, unless the reader has closed the pipe.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     stream(|out| out.write_all(text.as_bytes()))
 }
 
-/// Writes to standard output whatever `write` does.
+/// Streams the output of `write` to standard output.
 ///
 /// # Errors
 /// Like [`print`], and returns other errors of `write` too.
@@ -31,7 +31,7 @@ pub(crate) fn stream<E: Into<WriteError>>(
     }
 }
 
-/// Why nothing was written: by the output, or by what was to be written.
+/// An error of the output, or of the text to be written.
 pub(crate) enum WriteError {
     Io(io::Error),
     Other(Failure),
@@ -52,17 +52,17 @@ impl From<ImageError> for WriteError {
     }
 }
 
-/// A remark on standard error.
+/// Prints a remark on standard error.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
 }
 
-/// What is not wrong, but surely not meant, on standard error.
+/// Prints a warning on standard error: valid input that is surely not meant.
 pub(crate) fn warn(report: &qrt_core::syntax::Report) {
     let _ = io::stderr().write_all(report.render(colour()).as_bytes());
 }
 
-/// What went wrong, on standard error.
+/// Prints an error on standard error.
 pub(crate) fn error(failure: &Failure) {
     let colour = colour();
     let text = match failure {
@@ -75,7 +75,7 @@ pub(crate) fn error(failure: &Failure) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// Colours are for terminals, and for whoever hasn't set <https://no-color.org>.
+/// True if standard error is a terminal that takes colours and `NO_COLOR` (<https://no-color.org>) is not set.
 fn colour() -> bool {
     let unwanted = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
         || env::var_os("TERM").is_some_and(|value| value == "dumb");

@@ -1,24 +1,25 @@
-//! How long work takes is estimated before it begins, and told where it is long: it may be meant, but hardly is.
+//! Estimates the time of work before it begins, and prints it if it is long; the user may still have meant it.
 
 use super::terminal;
 use qrt_core::valid::ValidScene;
 use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
 
-/// Paths that a thread is taken to trace in a second: a round figure, for an estimate of hours or days.
+/// Paths per second of a thread by `real`: a round figure, for an estimate of hours or days.
 const PATHS: f64 = 1e6;
-/// Gates of a path that a thread is taken to run in a second, and operations: round figures, too.
+/// Gates per second of a thread by `gates`, and operations per second by `fixed`: round figures, too.
 const GATES: f64 = 2e11;
 const OPERATIONS: f64 = 2e8;
-/// Qubits of circuits whose gates are made anew for as few paths as have memory, and gates of these.
+/// Most qubits of a circuit that runs at the rate `GATES`. Gates of larger circuits are generated again for
+/// each small batch of paths that fits in memory; `GATES_ANEW` is their rate.
 const MANY_QUBITS: f64 = 4e6;
 const GATES_ANEW: f64 = 5e9;
-/// Of so few, circuits are not looked at.
+/// Most paths for which the time of the circuit is not estimated.
 const FEW_PATHS: f64 = 65_536.0;
-/// Less is not told of.
+/// Minutes below which nothing is printed.
 const MINUTES: f64 = 10.0;
 
-/// Seconds of a thread for a path; nothing where the scene has no circuit.
+/// Returns the seconds that a thread takes per path; 0 if the scene has no circuit.
 fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
     match model {
         Model::Real => 1.0 / PATHS,
@@ -30,7 +31,7 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
     }
 }
 
-/// Tells how long it takes to trace all paths of so many pixels on these models, each `times` over, if that is
+/// Prints the time to trace all paths of `pixels` pixels on each of `models`, each `times` times, if it is
 /// long.
 pub(crate) fn tell_of_paths(
     scene: &ValidScene,
@@ -41,7 +42,7 @@ pub(crate) fn tell_of_paths(
 ) {
     let bits = scene.scene().sampling.path_bits;
     let paths = times * pixels * libm::exp2(f64::from(bits));
-    // Of fewer, no circuit that is run takes long, and looking at it would.
+    // Fewer paths run quickly on any circuit, and estimating the circuit's size would not be quick.
     let of_circuit = paths > FEW_PATHS && models.iter().any(|model| *model != Model::Real);
     let size = of_circuit.then(|| CircuitSize::estimated(scene)).flatten();
     let of_path = models.iter().map(|model| seconds(size, *model));
@@ -51,7 +52,7 @@ pub(crate) fn tell_of_paths(
     tell(&what, seconds, &less(bits, seconds));
 }
 
-/// What takes less than so many seconds for paths of so many bits.
+/// Suggests settings that take less than `seconds`, for paths of `bits` bits.
 fn less(bits: u32, seconds: f64) -> String {
     // Each bit halves the time.
     let fewer = libm::ceil(libm::log2(seconds / (60.0 * MINUTES)));
@@ -65,14 +66,14 @@ fn less(bits: u32, seconds: f64) -> String {
     }
 }
 
-/// Tells that `what` takes so long, if that is long, and what takes less.
+/// Prints that `what` takes `seconds`, if that is long, and `less`, the advice.
 pub(crate) fn tell(what: &str, seconds: f64, less: &str) {
     if let Some(long) = long(seconds) {
         terminal::note(&format!("{what} take about {long} on this machine; {less}"));
     }
 }
 
-/// A long time in words.
+/// Returns a long time in words; `None` below 10 minutes.
 fn long(seconds: f64) -> Option<String> {
     let minutes = seconds / 60.0;
     let (value, unit) = match minutes {
@@ -85,7 +86,7 @@ fn long(seconds: f64) -> Option<String> {
     Some(format!("{} {unit}", number(value)))
 }
 
-/// With two digits that count, or as a whole number; of large ones, in powers of ten.
+/// Formats with two significant digits or as a whole number; large numbers as powers of ten.
 fn number(value: f64) -> String {
     if value < 10.0 {
         format!("{value:.1}")

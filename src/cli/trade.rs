@@ -1,4 +1,4 @@
-//! `qrt trade`: what accuracy costs.
+//! `qrt trade`: measures the cost of accuracy.
 
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
@@ -17,7 +17,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// How often the paths of a pixel are taken to be traced: a round figure.
+/// Assumed number of times that the paths of a pixel are traced: a round figure.
 const TRACED_ANEW: f64 = 20.0;
 
 /// Measure what a scene's accuracy costs, parameter by parameter
@@ -75,7 +75,7 @@ pub(crate) struct TradeArgs {
     quiet: bool,
 }
 
-/// That none of the files in `folder` that would be written is one that the scene was read from, or
+/// Checks that none of the files that would be written in `folder` is a file of the scene, or the same as
 /// another of them.
 fn keep_apart_from(folder: &Path, scene: &Path, files: &[PathBuf]) -> Result<(), Failure> {
     let there = fs::read_dir(folder).into_iter().flatten().flatten();

@@ -1,4 +1,4 @@
-//! `qrt render --watch`: the picture again whenever a file of the scene is saved.
+//! `qrt render --watch`: renders again whenever a file of the scene is saved.
 
 use super::failure::Failure;
 use super::terminal;
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
 
-/// How often files are looked at.
+/// Interval between two looks at the files.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Files, and when each was changed last; none of one that is not there.
+/// Files with their times of last change; `None` for a file that does not exist.
 #[derive(Debug, PartialEq)]
 struct Times(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
 
@@ -33,12 +33,12 @@ impl Times {
     }
 }
 
-/// Calls `render` now, and again whenever one of its files changes, until `interrupted`. It is told to
-/// end early, by its flag, when what it renders is out of date, and notes the files that it reads. What
-/// goes wrong is told, and mended by the next change.
+/// Calls `render` now, and again whenever one of its files changes, until `interrupted`. `render` ends
+/// early when its flag says that its input is out of date, and adds the files that it reads to the list.
+/// Its errors are printed; the next change is a new attempt.
 ///
 /// # Errors
-/// What is wrong with the command line: no change of a file would mend it. Later, with the scene.
+/// At first, an error in the command line, which no change of a file would mend.
 pub(crate) fn watch(
     scene: &Path,
     interrupted: &AtomicBool,
@@ -47,7 +47,7 @@ pub(crate) fn watch(
     let mut files = vec![scene.to_owned()];
     let mut first = true;
     while !interrupted.load(Ordering::Relaxed) {
-        // From before they are read: what is saved meanwhile is read again.
+        // The times are taken before the files are read, so a file saved meanwhile is read again.
         let before = Times::of(&files);
         let (outdated, done) = (AtomicBool::new(false), AtomicBool::new(false));
         let mut read = vec![scene.to_owned()];
@@ -73,7 +73,7 @@ pub(crate) fn watch(
             terminal::error(&failure);
         }
         first = false;
-        // A scene that cannot be read names no files: those of before are its files still.
+        // An unreadable scene names no files, so the previous list is kept.
         if read.len() >= files.len() {
             files = read;
         }

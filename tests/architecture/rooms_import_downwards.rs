@@ -1,11 +1,11 @@
-//! No module imports from a module above it: crates by their manifests, and the modules of a crate
-//! by what their code names of `crate::`. Tests may look anywhere.
+//! Checks that no module imports from a module above it: crates by their manifests, and the modules
+//! of a crate by the names after `crate::` in their code. Tests may import from anywhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Crates, and those of this repository that each may use.
+/// Crates, with the crates of this repository that each may use.
 const CRATES: &[(&str, &[&str])] = &[
     ("qrt-circuit", &[]),
     ("qrt-core", &["qrt-circuit"]),
@@ -102,7 +102,7 @@ fn no_module_imports_from_one_above_it() {
                 ));
             }
             for (to, file) in imports {
-                // What is no module is an item of the crate's root.
+                // A name that is not a module is an item of the crate's root.
                 if place(&to) > place(&from) {
                     wrong.insert(format!("{}: `{from}` imports from `{to}`", file.display()));
                 }
@@ -118,7 +118,7 @@ fn no_module_imports_from_one_above_it() {
     );
 }
 
-/// By module: what its code names of `crate::`, and in which files.
+/// Returns, by module, the names after `crate::` in its code, and their files.
 fn imports(folder: &Path) -> BTreeMap<String, BTreeSet<(String, PathBuf)>> {
     let mut files = Vec::new();
     sources(folder, &mut files);
@@ -138,7 +138,7 @@ fn imports(folder: &Path) -> BTreeMap<String, BTreeSet<(String, PathBuf)>> {
     imports
 }
 
-/// All Rust files of a folder, but for tests.
+/// Collects all Rust files of a folder except for tests.
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -154,7 +154,7 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// A source without comments and without what stands between quotes.
+/// Returns a source without comments and without the text of literals.
 fn code(source: &str) -> String {
     let mut code = String::new();
     let mut rest = source;
@@ -163,7 +163,7 @@ fn code(source: &str) -> String {
             '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
             '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |at| at + 2),
             '"' => quoted(rest, '"'),
-            // A character, not a lifetime.
+            // The quote begins a character, not a lifetime.
             '\'' if rest.starts_with("'\\") || rest.chars().nth(2) == Some('\'') => {
                 quoted(rest, '\'')
             }
@@ -178,7 +178,7 @@ fn code(source: &str) -> String {
     code
 }
 
-/// How long a literal is.
+/// Returns the length of a literal.
 fn quoted(text: &str, quote: char) -> usize {
     let mut escaped = true;
     for (at, c) in text.char_indices() {
@@ -193,7 +193,7 @@ fn quoted(text: &str, quote: char) -> usize {
     text.len()
 }
 
-/// Code without the items behind `#[cfg(test)]`.
+/// Returns code without the items behind `#[cfg(test)]`.
 fn without_tests(code: &str) -> String {
     let mut parts = code.split("#[cfg(test)]");
     let mut kept = parts.next().unwrap().to_owned();
@@ -208,7 +208,7 @@ fn without_tests(code: &str) -> String {
     kept
 }
 
-/// The names that follow `crate::`, alone or in braces.
+/// Returns the names that follow `crate::`, alone or in braces.
 fn named(code: &str) -> BTreeSet<String> {
     let mut named = BTreeSet::new();
     for path in code.split("crate::").skip(1) {

@@ -1,9 +1,9 @@
-//! Everything that the prelude exports shows how it is used, in an example that `cargo test --doc`
-//! runs: beside its export, or in the documentation that it has itself.
+//! Checks that each name that the prelude exports is used in an example that `cargo test --doc`
+//! runs: beside its export, or in its own documentation.
 
 use std::path::Path;
 
-/// What `prelude.rs` exports together: its names, and the documentation.
+/// Returns the groups of exports of `prelude.rs`: their names, and the documentation.
 fn exports(prelude: &str) -> Vec<(Vec<String>, String)> {
     let (mut docs, mut path, mut found) = (String::new(), String::new(), Vec::new());
     for line in prelude.lines() {
@@ -36,9 +36,9 @@ fn exports(prelude: &str) -> Vec<(Vec<String>, String)> {
     found
 }
 
-/// The code of all listings that are run.
+/// Returns the code of all listings that are run.
 fn examples(docs: &str) -> String {
-    // `None` outside of a listing; whether it is run.
+    // `None` outside of a listing; in one, true if it is run.
     let (mut listing, mut code) = (None, String::new());
     for line in docs.lines().map(str::trim) {
         if let Some(language) = line.strip_prefix("```") {
@@ -66,7 +66,7 @@ fn all_that_the_prelude_exports_has_an_example() {
     let exports = exports(&text("src/prelude.rs"));
     let count: usize = exports.iter().map(|(names, _)| names.len()).sum();
     assert!(count > 40, "{exports:?}");
-    // The macros' own documentation.
+    // The macros have their own documentation.
     let macros = [
         ("qrt", "src/scene_macro.md"),
         ("reversible", "src/reversible.md"),

@@ -1,4 +1,4 @@
-//! The book's figures are what the library draws today.
+//! Checks that the book's figures are those that the library draws today.
 
 #![allow(dead_code, reason = "the example prints what figures show")]
 
@@ -11,14 +11,14 @@ use qrt::runtime::render::Model;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// What to do about a figure that differs.
+/// Remedy for a figure that differs.
 const AGAIN: &str = "run `cargo run --release --example book-figures`";
-/// Made by the gates machine, which would take too long here.
+/// Picture by the gates machine, which would take too long here.
 const GATES: &str = "cornell-box-gates.png";
-/// A figure is a part of a page that is read over a network.
+/// Limit on a figure's size: it is a part of a page that is read over a network.
 const MOST_BYTES: u64 = 100_000;
 
-/// The size, the colours' type and the samples of a PNG file.
+/// Returns the size, the colour type and the samples of a PNG file.
 fn decoded(file: &Path) -> (u32, u32, Vec<u8>) {
     let open = std::fs::File::open(file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     let decoder = png::Decoder::new(std::io::BufReader::new(open));
@@ -29,7 +29,7 @@ fn decoded(file: &Path) -> (u32, u32, Vec<u8>) {
     (info.width, info.height, samples)
 }
 
-/// What is wrong with a figure's file.
+/// Returns the fault of a figure's file, if there is one.
 fn wrong(name: &str, figure: &Figure) -> Option<String> {
     let file = folder().join(name);
     match &figure.body {
@@ -81,7 +81,7 @@ fn pictures_are_made_again_pixel_by_pixel() {
     compared(is_picture);
 }
 
-/// The fixed machine makes the gates machine's picture; gates themselves make a part of it.
+/// Makes the gates machine's picture by the fixed machine, and a part of it by gates.
 #[test]
 fn the_picture_by_gates_is_made_again() {
     let figure = by_gates(Model::Fixed);
@@ -112,7 +112,7 @@ fn every_figure_has_a_generator_and_is_small() {
     assert!(missing.is_empty(), "{missing:?} are missing: {AGAIN}");
 }
 
-/// They follow the reader's colour scheme and say what they show to those who cannot see them.
+/// Drawings follow the reader's colour scheme, and describe themselves to readers who cannot see them.
 #[test]
 fn drawings_have_both_colour_schemes_a_title_and_a_description() {
     for (name, _) in ALL.iter().filter(|(name, _)| !is_picture(name)) {

@@ -1,15 +1,15 @@
-//! What the book shows of the command is what the command says, and its scenes are scenes.
+//! Checks that the output of commands in the book is what the commands print, and that its scenes are valid.
 //!
-//! Every ```` ```console ```` block of every page is executed, page by page, in a folder of its own
-//! that holds a copy of `scenes-yaml`. A line that begins with `$ ` is a command for `sh`; the
-//! lines below it are what it must say, standard error and all, where a line `...` stands for any
-//! lines. `QRT_BLESS=1 cargo test --test book listings` writes what the commands say into the
-//! pages, but for commands with a `...`, whose differences are told.
+//! The test executes every ```` ```console ```` block of every page, page by page, in a folder of its
+//! own that holds a copy of `scenes-yaml`. A line that begins with `$ ` is a command for `sh`; the
+//! lines below it are its expected output, standard error included, where a line `...` stands for any
+//! lines. `QRT_BLESS=1 cargo test --test book listings` writes the output of the commands into the
+//! pages, except for commands with a `...`, whose differences it reports.
 //!
-//! Every ```` ```yaml ```` block must be accepted, every ```` ```yaml,wrong ```` refused. A block
-//! without some of the blocks that a scene needs gets them from a scene with the materials `white`
-//! and `lamp`. A first line `# NAME.yaml` saves the block under that name for the commands below;
-//! `# in NAME.yaml` replaces those blocks of the file.
+//! Every ```` ```yaml ```` block must be accepted, every ```` ```yaml,wrong ```` refused. If a block
+//! lacks some of the blocks that a scene needs, the test adds them from a scene with the materials
+//! `white` and `lamp`. A first line `# NAME.yaml` saves the block under that name for the commands
+//! below; `# in NAME.yaml` replaces those blocks of the file.
 
 #![cfg(unix)]
 
@@ -23,8 +23,7 @@ use std::fs;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// The book shows no fewer commands than these, nor fewer scenes; if it did, they would not have
-/// been found.
+/// Least number of commands and scenes in the book: with fewer, the test would not have found all.
 const LEAST: [usize; 2] = [80, 25];
 
 #[test]

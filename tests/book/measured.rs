@@ -1,4 +1,4 @@
-//! Every figure of speed says where it comes from: the machine, the number of threads, the commit
+//! Checks that every figure of speed names its source: the machine, the number of threads, the commit
 //! and the command. Figures that are the same on every machine say `any machine` and need no
 //! threads.
 //!
@@ -29,10 +29,10 @@ const SPEEDS: [&str; 10] = [
     "microseconds a shot",
     "after a change",
 ];
-/// Words of a sentence that derives its figures from others, or points to them.
+/// Words of a sentence that derives its figures from others, or refers to them.
 const POINTERS: [&str; 2] = ["figures.md", "by the same"];
 
-/// The names of the machines: the first column of the table under "Machines".
+/// Returns the names of the machines: the first column of the table under "Machines".
 fn machines(figures: &str) -> Vec<String> {
     let section = figures.split("\n## Machines\n").nth(1).unwrap_or_default();
     let rows = section.lines().skip_while(|line| !line.starts_with('|'));
@@ -42,7 +42,7 @@ fn machines(figures: &str) -> Vec<String> {
         .collect()
 }
 
-/// The cells of a table's row.
+/// Returns the cells of a table's row.
 fn cells(row: &str) -> Vec<&str> {
     let row = row.trim().trim_start_matches('|').trim_end_matches('|');
     row.split(" | ")
@@ -67,7 +67,7 @@ fn names_command(text: &str) -> bool {
         .any(|code| PROGRAMS.iter().any(|program| code.starts_with(program)))
 }
 
-/// True if `text` says on how many threads it was measured.
+/// True if `text` names the number of threads of the measurement.
 fn names_threads(text: &str) -> bool {
     let words: Vec<&str> = text
         .split(|c: char| !c.is_alphanumeric())
@@ -98,7 +98,7 @@ fn missing(text: &str, machines: &[String]) -> Vec<&'static str> {
     missing
 }
 
-/// Blocks of lines between empty lines, with the number of their first line; fences are left out.
+/// Returns blocks of lines between empty lines, with the number of their first line, without fences.
 fn paragraphs(text: &str) -> Vec<(usize, String)> {
     let mut all = Vec::new();
     let mut block = (1, String::new());
@@ -127,7 +127,7 @@ fn paragraphs(text: &str) -> Vec<(usize, String)> {
 /// Lists the rows of a table of figures without provenance.
 ///
 /// A table without the columns `measured` and `command` may have a paragraph `below` it that begins
-/// with "Measured: " and says so of all rows.
+/// with "Measured: " and names the provenance of all rows.
 fn wrong_rows(table: &str, below: &str, first: usize, machines: &[String]) -> Vec<String> {
     let mut lines = table.lines();
     let head = cells(lines.next().unwrap_or_default());
@@ -181,7 +181,7 @@ fn every_table_of_figures_names_machine_threads_commit_and_command() {
     let mut failures = Vec::new();
     let all = paragraphs(&text);
     for (place, (line, table)) in all.iter().enumerate() {
-        // The table of the machines itself says what they are.
+        // The table of the machines has no measurements.
         if table.starts_with('|') && !table.starts_with("| name |") {
             tables += 1;
             let below = all.get(place + 1).map_or("", |(_, text)| text.as_str());

@@ -10,10 +10,10 @@ pub(crate) use links::Link;
 use std::fs;
 use std::path::PathBuf;
 
-/// Where the pages are, seen from the root of the repository.
+/// Folder of the pages, relative to the root of the repository.
 pub(crate) const FOLDER: &str = "book/src";
 
-/// Whether files that are made from something else shall be written anew.
+/// True if generated files are to be written again.
 pub(crate) fn bless() -> bool {
     std::env::var_os("QRT_BLESS").is_some()
 }
@@ -21,14 +21,14 @@ pub(crate) fn bless() -> bool {
 /// A page of the book.
 #[derive(Clone, Debug)]
 pub(crate) struct Page {
-    /// `sampling.md`
+    /// Name of the file, for example `sampling.md`.
     pub(crate) name: String,
-    /// All of it.
+    /// The whole text.
     pub(crate) text: String,
 }
 
 impl Page {
-    /// A page that is not in a file.
+    /// Creates a page that is not in a file.
     pub(crate) fn new(name: &str, text: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -36,41 +36,41 @@ impl Page {
         }
     }
 
-    /// The page called `name`, if its file is there.
+    /// Loads the page `name`, if its file is there.
     pub(crate) fn load(name: &str) -> Option<Self> {
         let text = fs::read_to_string(PathBuf::from(FOLDER).join(name)).ok()?;
         Some(Self::new(name, &text))
     }
 
-    /// Where a reader finds line `line`, counted from 1.
+    /// Returns the place of line `line`, counted from 1, for a message.
     pub(crate) fn at(&self, line: usize) -> String {
         format!("{FOLDER}/{}:{line}", self.name)
     }
 
-    /// Fenced blocks in order; or what is wrong with them.
+    /// Returns the fenced blocks in order.
     pub(crate) fn fences(&self) -> Vec<Fence> {
         fences::read(&self.text)
     }
 
-    /// The text with fences, code, formulas and comments blanked out: lines stay where they are.
+    /// Returns the text with fences, code, formulas and comments blanked out: lines stay where they are.
     pub(crate) fn prose(&self) -> String {
         prose::blanked(&self.text)
     }
 
-    /// Links and pictures of the prose, with their lines.
+    /// Returns the links and pictures of the prose, with their lines.
     pub(crate) fn links(&self) -> Vec<Link> {
         links::read(&self.prose())
     }
 }
 
-/// The pages that `SUMMARY.md` lists, in its order.
+/// Returns the pages that `SUMMARY.md` lists, in its order.
 pub(crate) fn listed() -> Vec<String> {
     let summary = Page::load("SUMMARY.md").expect("the book has a summary");
     let pages = summary.links().into_iter().map(|link| link.target);
     pages.collect()
 }
 
-/// All pages that are listed and there.
+/// Loads all listed pages that exist.
 pub(crate) fn pages() -> Vec<Page> {
     listed()
         .iter()

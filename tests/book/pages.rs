@@ -1,6 +1,6 @@
-//! The book keeps its promises to the reader: every equation of the paper has its test, every error
-//! code and erratum has its place. That links lead somewhere, and what blocks of equations say, is
-//! checked by the book's tool, where the book is built.
+//! Checks the completeness of the book: every equation of the paper has its test, every error code and
+//! erratum has its place. The book's tool checks, when the book is built, that links have targets and
+//! that blocks of equations are valid.
 
 mod errata;
 mod fences;
@@ -50,7 +50,7 @@ fn every_page_is_listed_and_every_listed_page_is_there() {
     report(&failures);
 }
 
-/// That each is restated, once, and that its code is there: the book's tool sees to it.
+/// The book's tool checks that each equation is restated once, and that its code exists.
 #[test]
 fn every_equation_of_the_paper_names_a_test_of_it() {
     let mut failures = Vec::new();
@@ -72,7 +72,7 @@ fn every_equation_of_the_paper_names_a_test_of_it() {
     assert_eq!(count, COUNT);
 }
 
-/// A link to an equation or an erratum names it.
+/// Checks that a link to an equation or an erratum names it.
 fn says_where(link: &Link) -> Result<(), String> {
     let (_, anchor) = link.target.split_once('#').unwrap_or_default();
     let digits = |text: &&str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
@@ -117,7 +117,7 @@ fn a_link_that_names_a_number_leads_to_it() {
     }
 }
 
-/// That every link leads somewhere, the book's tool sees to.
+/// The book's tool checks that every link has a target.
 #[test]
 fn every_link_that_names_a_number_leads_to_it() {
     let mut failures = Vec::new();

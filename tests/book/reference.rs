@@ -1,6 +1,6 @@
-//! The book's reference pages say what the program says: the format of scenes as the types have it,
-//! and every error code with a report that somebody gets. `QRT_BLESS=1 cargo test --test book
-//! reference` writes both pages anew.
+//! Compares the book's reference pages with the program: the format of scenes with the types, and every
+//! error code with a report that a user can get. `QRT_BLESS=1 cargo test --test book reference` writes
+//! both pages again.
 
 mod codes;
 mod examples;
@@ -11,7 +11,7 @@ mod reports;
 
 use super::page::{FOLDER, Page, bless};
 
-/// Compares a page with what it must be, or writes it.
+/// Compares a page with the expected text, or writes it.
 fn compare(name: &str, text: &str) {
     if bless() {
         std::fs::write(format!("{FOLDER}/{name}"), text).unwrap();

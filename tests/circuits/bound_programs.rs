@@ -1,5 +1,5 @@
-//! A scene's program is a value: with a pixel built in, it computes in that pixel what the scene's
-//! oracle computes there, on every machine, undone and as a text.
+//! Tests of a scene's program with a pixel built in: it computes the same as the scene's oracle in that
+//! pixel, on every machine, uncomputed, and as exported text.
 
 use crate::common::scene::written;
 use qrt::circuit::export::Format;
@@ -11,14 +11,14 @@ use std::sync::Arc;
 
 const SEED: u64 = 5;
 
-/// A scene whose numbers are small, and pixels of it.
+/// Returns scenes with narrow registers, and pixels of them.
 fn scenes() -> [(Oracle, [[u32; 2]; 3]); 2] {
     let small = ["comparator.bits=4", "sampling.path_bits=5"];
     let of = |text: &str, more: &[&str]| {
         let scene = written(text, &[&small, more].concat());
         Oracle::rgb(&scene, Options::default()).unwrap()
     };
-    // Pixels in a wall, at an edge, in the lamp; and scopes that are undone and computed again.
+    // Pixels in a wall, at an edge, in the lamp; and scopes that are uncomputed and computed again.
     let blocks = include_str!("../scenes/blocks.yaml");
     let scoped = include_str!("../scenes/scoped.yaml");
     [
@@ -33,7 +33,7 @@ fn scenes() -> [(Oracle, [[u32; 2]; 3]); 2] {
     ]
 }
 
-/// By path, by channel: what the scene's own oracle counts in a pixel.
+/// Returns the counts of the scene's own oracle in a pixel, by path and channel.
 fn counted(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<Vec<u64>> {
     let mut paths = Vec::new();
     let taken = machine.trace(&[pixel], 0..machine.paths(), |run| {
@@ -94,7 +94,7 @@ fn their_inverses_leave_nothing() {
     }
 }
 
-/// What a text of X, CNOT and Toffoli makes of a path: by name the contents of all registers.
+/// Runs a text of X, CNOT and Toffoli on a path; returns the contents of all registers by name.
 fn followed(text: &str, path: u64) -> BTreeMap<&str, u64> {
     let mut qubits: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
     for line in text.lines().skip(2).filter(|line| !line.starts_with("//")) {

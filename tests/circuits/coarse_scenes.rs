@@ -1,9 +1,9 @@
 //! Random scenes on a coarse grid, where everything coincides: faces on one plane, faces that touch, cross
 //! and enclose each other, glass closed, open and turned over, eyes and films on faces, edges and corners.
 //!
-//! Of each scene: all models agree, no path leaves its bound, the order of the list changes nothing but
-//! what faces of one plane hide, and a search finds the faces that the tracer finds. Over all scenes,
-//! aiming at lamps leaves the brightness as it is.
+//! For each scene: all models agree, no path exceeds its bound, the order of the list changes nothing
+//! except which face of one plane hides another, and a search finds the same faces as the tracer. Over
+//! all scenes, light sampling does not change the brightness.
 
 use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
@@ -18,7 +18,7 @@ use std::fmt::Write as _;
 
 type Corner = [i64; 3];
 
-/// A polygon, in halves.
+/// A polygon, with coordinates in halves.
 #[derive(Clone, Debug)]
 struct Face {
     corners: Vec<Corner>,
@@ -26,7 +26,7 @@ struct Face {
 }
 
 impl Face {
-    /// The plane: a normal in lowest terms, up to its sign, and the offset along it.
+    /// Returns the plane: a normal in lowest terms, up to its sign, and the offset along it.
     fn plane(&self) -> [i64; 4] {
         let [a, b, c] = [0, 1, 2].map(|k| self.corners[k]);
         let difference = |p: Corner, q: Corner| [0, 1, 2].map(|k| p[k] - q[k]);
@@ -51,7 +51,7 @@ struct Draft {
     head: String,
     faces: Vec<Face>,
     rest: String,
-    /// Rays of a path after the first.
+    /// Number of rays of a path after the first.
     bounces: usize,
 }
 
@@ -60,7 +60,7 @@ impl Draft {
         self.with(faces, &self.rest)
     }
 
-    /// The scene with many paths, whose lamps are aimed at as `lights` says.
+    /// Returns the scene with many paths, with lamps sampled as `lights` says.
     fn dense(&self, lights: &str) -> String {
         let light = if lights == "none" {
             ""
@@ -93,7 +93,7 @@ impl Draft {
         text + rest
     }
 
-    /// The list in another order, in which faces of each plane keep theirs.
+    /// Returns the list in another order, in which the faces of each plane keep theirs.
     fn shuffled(&self, numbers: &mut Numbers) -> Vec<Face> {
         let mut order: Vec<usize> = (0..self.faces.len()).collect();
         for n in (1..order.len()).rev() {
@@ -126,7 +126,7 @@ fn cuboid(numbers: &mut Numbers, material: usize) -> Vec<Face> {
     faces
 }
 
-/// A tetrahedron, closed.
+/// Returns a closed tetrahedron.
 fn wedge(numbers: &mut Numbers, material: usize) -> Vec<Face> {
     let mut point = || [(); 3].map(|()| numbers.below(9) as i64 - 4);
     let p = [point(), point(), point(), point()];
@@ -178,7 +178,7 @@ fn draft(numbers: &mut Numbers) -> Draft {
     let up = if (0..3).all(|k| k == along || eye[k] == target[k]) {
         up
     } else {
-        // No grid line is along the view.
+        // No grid line is parallel to the view.
         [13, 17, 19]
     };
     let view = format!("eye: {eye:?}, target: {target:?}, up: {up:?}");
@@ -199,7 +199,7 @@ fn draft(numbers: &mut Numbers) -> Draft {
         "dielectric: { ior: 1.5 }",
         "dielectric: { ior: 0.8 }",
         "ggx: { alpha: 0.3, reflectance: [0.8, 0.8, 0.8] }",
-        // Scatters to both sides.
+        // This material scatters to both sides.
         "bsdf: { map: ['2*sqrt(u-u^2)*cos(2*pi*v)', '2*sqrt(u-u^2)*sin(2*pi*v)', '1-2*u'], value: '0.1' }",
     ];
     for (number, material) in materials.iter().enumerate() {
@@ -216,7 +216,7 @@ fn draft(numbers: &mut Numbers) -> Draft {
         faces.push(square(numbers, material));
     }
     if numbers.below(2) == 0 {
-        // A stack on the first one's plane.
+        // More faces on the first one's plane.
         let plane = faces[0].plane();
         for _ in 0..=numbers.below(3) {
             let other = loop {
@@ -286,26 +286,26 @@ fn picture(scene: &ValidScene, options: &Options<'_>, text: &str) -> Vec<[f64; 3
         .pixels
 }
 
-/// Counts over many scenes that were checked.
+/// Sums over the scenes that were checked.
 #[derive(Debug, Default)]
 struct Found {
     scenes: u64,
     refused: u64,
     /// Scenes whose numbers do not fit into registers.
     without_circuit: u64,
-    /// Sum over scenes of the fraction of paths that fixed and real numbers part on.
+    /// Sum over scenes of the fraction of paths on which fixed and real numbers differ.
     parted: f64,
-    /// Scenes whose picture is not black.
+    /// Number of scenes whose picture is not black.
     lit: u64,
-    /// Scenes of which fixed numbers see another picture in another order of the list.
+    /// Number of scenes whose picture in fixed numbers depends on the order of the list.
     shuffled: u64,
-    /// Scenes that were searched for the nearest faces, too, and those where rounding made a difference.
+    /// Number of scenes also searched for the nearest faces, and of those in which rounding made a difference.
     searched: u64,
     search_rounded: u64,
-    /// Scenes whose lamps were aimed at, too.
+    /// Number of scenes also rendered with light sampling.
     aimed: u64,
-    /// Over those, sums of the mean colour without aiming, of its difference to that with, and of the
-    /// squares of the differences.
+    /// Over those, sums of the mean colour without light sampling, of its difference to that with, and of
+    /// the squares of the differences.
     light: [f64; 3],
 }
 
@@ -325,12 +325,12 @@ impl Found {
         }
     }
 
-    /// Asserts that paths of fixed and of real numbers rarely part.
+    /// Asserts that paths of fixed and of real numbers rarely differ.
     fn assert_few_part(&self) {
         assert!(self.parted <= 0.05 * self.scenes as f64, "{self:?}");
     }
 
-    /// Asserts that pictures with and without aiming are as bright as each other, within four standard
+    /// Asserts that pictures with and without light sampling are equally bright, within four standard
     /// deviations of their noise.
     fn assert_equally_bright(&self) {
         let [_, difference, squares] = self.light;
@@ -338,8 +338,8 @@ impl Found {
     }
 }
 
-/// Compares a search for the nearest faces with the tracer's own. Rounding alone may part them: not with 28
-/// fraction bits.
+/// Compares a search for the nearest faces with the tracer's own. Only rounding may make a difference,
+/// and with 28 fraction bits it does not.
 fn compare_search(scene: &ValidScene, fixed: &[[f64; 3]], text: &str, found: &mut Found) {
     let searched = Options {
         visibility: Visibility::Exhaustive,

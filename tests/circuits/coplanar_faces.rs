@@ -1,4 +1,4 @@
-//! Faces of one plane: the one that is listed first is seen, by whatever looks, in every order of the list.
+//! Faces of one plane: every model and every search sees the first in the list, in all orders of the list.
 
 use crate::common::numbers::Numbers;
 use crate::common::scene::written;
@@ -13,7 +13,7 @@ struct Rectangle {
     plane: i32,
     low: [i32; 2],
     high: [i32; 2],
-    /// Radiance of the front, a power of two, so that comparators tell them exactly; 0 for a surface that
+    /// Radiance of the front, a power of two, so that comparators count it exactly; 0 for a surface that
     /// only reflects.
     radiance: u32,
     /// True if the front looks towards the camera, at positive z.
@@ -37,7 +37,7 @@ fn rectangle(numbers: &mut Numbers) -> Rectangle {
     }
 }
 
-/// A camera that looks along -z at `CELLS` by `CELLS` cells, one a pixel.
+/// Returns a scene with a camera that looks along -z at `CELLS` by `CELLS` cells, one per pixel.
 fn scene(list: &[Rectangle], rest: &str) -> String {
     let middle = f64::from(CELLS) / 2.0;
     let mut text = format!(
@@ -68,7 +68,7 @@ fn scene(list: &[Rectangle], rest: &str) -> String {
     text + rest
 }
 
-/// The radiance of each cell, from the top left: of the first face that is listed on the nearest plane.
+/// Returns the radiance of each cell, from the top left: that of the first face in the list on the nearest plane.
 fn seen(list: &[Rectangle]) -> Vec<f64> {
     let cells = (0..CELLS * CELLS).map(|n| [n % CELLS, CELLS - 1 - n / CELLS]);
     let radiance = |cell: [i32; 2]| {
@@ -129,7 +129,7 @@ fn sums_with_boxes(scene: &ValidScene, text: &str) -> Vec<PixelSum> {
 
 #[test]
 fn the_first_that_is_listed_is_seen_in_all_orders_and_models() {
-    // The last ray asks for emitters, the first of two for all faces; samples within a cell.
+    // The last ray tests emitters only, the first of two rays tests all faces; samples lie within a cell.
     let one = "sampling: { path_bits: 2, depths: [{ bits: [1, 1] }] }\n";
     let two =
         "sampling: { path_bits: 4, lights: none, depths: [{ bits: [1, 1] }, { bits: [1, 1] }] }\n";
@@ -170,8 +170,8 @@ fn the_first_that_is_listed_is_seen_in_all_orders_and_models() {
     assert_eq!(checked, 6 * 24);
 }
 
-/// A lamp in a plane with what covers a part of it, above a floor: the point of a lamp that is sampled is
-/// dark where a face that is listed before it covers it, and lit where one that is listed after it does.
+/// A lamp in a plane with a face that covers a part of it, above a floor: the sampled point of a lamp is
+/// dark where a face earlier in the list covers it, and lit where a later one does.
 #[test]
 fn a_shadow_ray_sees_the_face_that_is_listed_first() {
     let lamp =
@@ -228,7 +228,7 @@ fn a_shadow_ray_sees_the_face_that_is_listed_first() {
     }
 }
 
-/// The normals of the two lamps are (1, -1, 0) up to rounding, which alone decides the greatest component.
+/// The normals of the two lamps are (1, -1, 0) up to rounding, which alone decides the largest component.
 #[test]
 fn the_first_that_is_listed_is_seen_at_45_degrees() {
     let lamp = |left: f64, radiance: u32| {

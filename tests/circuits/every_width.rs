@@ -1,5 +1,5 @@
-//! Every number of fraction bits compiles, runs, and is as exact as its bits allow; and no register
-//! ever holds a number that it was not made for.
+//! Tests that every number of fraction bits compiles, runs, and is as exact as its bits allow, and that
+//! no register ever holds a number outside of its range.
 
 use super::paths::{CORNER, film, inputs, number, oracle, paths};
 use crate::common::scene::{from_file, written};
@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 
 const SEED: u64 = 2;
 
-/// Four depths or fewer, a small film.
+/// Overrides for a small film.
 const SMALL: [&str; 3] = ["film.width=4", "film.height=4", "comparator.bits=4"];
 
 fn scene(name: &str, fraction: u32, path_bits: u32) -> ValidScene {
@@ -21,13 +21,13 @@ fn scene(name: &str, fraction: u32, path_bits: u32) -> ValidScene {
     let path_bits = format!("sampling.path_bits={path_bits}");
     let mut sets = SMALL.to_vec();
     sets.extend([&*fraction, &path_bits]);
-    // Through one side of the block and out of another, and to the lamp.
+    // Rays through one side of the block, out of another, and to the lamp.
     if name == "cornell-glass" {
         let rays = "sampling.depths=[{ bits: [10, 10] }, { bits: [10, 10] }, { bits: [10, 10] }, \
                     { bits: [10, 10] }]";
         sets.push(rays);
     }
-    // Stools of four faces, not of 42.
+    // Replace stools of 42 faces by four faces each.
     if name == "velvet" {
         sets.extend([
             "geometry[3].mesh.obj=../tests/good_scenes/tetrahedron.obj",
@@ -37,7 +37,7 @@ fn scene(name: &str, fraction: u32, path_bits: u32) -> ValidScene {
     from_file(&format!("scenes-yaml/{name}.yaml"), &sets)
 }
 
-/// The number that a register's bits stand for, as its type reads them.
+/// Returns the number that a register's bits encode by its type.
 fn held(register: &Register, bits: u64) -> i64 {
     if register.ty == Type::Scratch {
         return 0;
@@ -49,9 +49,9 @@ fn held(register: &Register, bits: u64) -> i64 {
     }
 }
 
-/// Follows paths by the definition of operations. Every register holds a number of its interval,
-/// and the fixed machine's colours are those of the definition. Returns how many registers have an
-/// interval, of a program that undoes nothing on the way.
+/// Follows paths by the definition of operations. Checks that every register holds a number of its
+/// interval, and that the fixed machine's colours are those of the definition. Returns the number of
+/// registers with an interval, for a program that uncomputes nothing on the way.
 fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> {
     let machine = OracleMachine::fixed(oracle.clone(), SEED, true);
     let pixels = film(oracle);
@@ -59,7 +59,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> 
     let program = &oracle.program;
     let mut extremes = Extremes::new(program);
     let undone = program.instructions.iter().any(|step| step.inverse);
-    // What no operation computes any more is 0.
+    // Registers that no operation computes any more are 0.
     let mut computed = vec![false; program.registers.len()];
     for step in &program.instructions {
         for target in program.ops[step.op as usize].targets() {
@@ -101,7 +101,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> 
             }
         }
     }
-    // What was there on the way, the intermediate registers of a scoped program included.
+    // Values on the way, the intermediate registers of a scoped program included.
     for (register, [least, most]) in program.registers.iter().zip(&extremes.registers) {
         if let Some([low, high]) = register.range
             && (*least < low.min(0) || *most > high.max(0))
@@ -119,7 +119,7 @@ fn runs(name: &str, fractions: impl IntoIterator<Item = u32>, gates: &[u32]) {
         assert_eq!(oracle.fraction, fraction);
         let proven =
             fits(&oracle, 5).unwrap_or_else(|wrong| panic!("{name}, {fraction} bits: {wrong}"));
-        // With fewer, little of the brightest path's colour is left, and nothing to compute.
+        // With fewer bits, little of the brightest path's colour is left, and few registers to compute.
         assert!(proven > 100 || fraction < 10);
         if gates.contains(&fraction) {
             let pixels = film(&oracle);
@@ -131,10 +131,10 @@ fn runs(name: &str, fractions: impl IntoIterator<Item = u32>, gates: &[u32]) {
     }
 }
 
-/// Every number of fraction bits that a scene may ask for.
+/// Every number of fraction bits that a scene may have.
 const ALL: RangeInclusive<u32> = 4..=30;
 
-/// The ends, and two between.
+/// The least, the largest, and two between.
 const SOME: [u32; 4] = [4, 10, 19, 30];
 
 #[test]
@@ -157,7 +157,7 @@ fn every_width_runs_every_material() {
     }
 }
 
-/// The mean over paths and channels of how far fixed is from real, in units of the scale.
+/// Returns the mean over paths and channels of the difference of fixed and real, in units of the scale.
 fn width_error(name: &str, fraction: u32) -> f64 {
     let scene = scene(name, fraction, 8);
     let oracle = oracle(&scene);
@@ -181,8 +181,8 @@ fn width_error(name: &str, fraction: u32) -> f64 {
     sum / (3 * real[0].len()) as f64
 }
 
-/// E_W halves with every bit: rounding does, and so does the fraction of paths that pass an edge on
-/// its other side. Four bits are sixteen times less; by the chance of few paths, at least four.
+/// Checks that E_W halves with every bit: rounding does, and so does the fraction of paths that pass an
+/// edge on its other side. Four bits more should divide it by sixteen; with few paths, at least by four.
 fn shrinks(name: &str) {
     let errors = [10, 14, 18, 22, 26].map(|fraction| width_error(name, fraction));
     println!("{name}: {errors:?}");
@@ -225,7 +225,7 @@ fn material() -> impl Strategy<Value = String> {
 }
 
 prop_compose! {
-    /// A corner and two edges, not too far from square.
+    /// Generates a corner and two edges, not too far from square.
     fn quad()(
         corner in point(),
         a in point(),
@@ -236,7 +236,7 @@ prop_compose! {
     }
 }
 
-/// A scene of a lamp and up to four quads of any materials, seen from anywhere.
+/// Generates a scene of a lamp and up to four quads of any materials, seen from anywhere.
 fn any_scene() -> impl Strategy<Value = String> {
     let quads = prop::collection::vec((quad(), material()), 1..5);
     let circuit = ("(keep|scoped)", "(running|paper)", 4..=30_u32, 1..=3_usize);
@@ -274,8 +274,8 @@ fn any_scene() -> impl Strategy<Value = String> {
     )
 }
 
-/// That all registers of a scene hold what they were made for. A sliver, or a camera that looks
-/// along its own up, is no scene.
+/// Checks that all registers of a scene hold numbers of their ranges. A sliver, or a camera that looks
+/// along its own up vector, is not a valid scene and is skipped.
 fn scene_fits(text: &str) -> Result<(), TestCaseError> {
     prop_assume!(qrt::core::front::parse(text, "any.yaml", &[], "".as_ref()).is_ok());
     let fitting = fits(&oracle(&written(text, &[])), 2);
@@ -329,7 +329,7 @@ proptest! {
     }
 }
 
-/// The definition and the extremes agree on what a register held last.
+/// Checks that the definition and the extremes agree on the last value of each register.
 #[test]
 fn extremes_enclose_what_is_held() {
     let oracle = oracle(&written(CORNER, &[]));

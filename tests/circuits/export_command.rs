@@ -1,4 +1,4 @@
-//! Exported circuits, read again and run: they are the circuits that the scene counts with.
+//! Tests of exported circuits: read again and run, they are the circuits with which the scene counts.
 
 use super::openqasm::Circuit;
 use super::paths::{oracle, paths};
@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use std::fs;
 use std::sync::atomic::AtomicBool;
 
-/// A lamp before a wall, of fewer paths and comparators: 2^5 indices.
+/// Returns a lamp in front of a wall, with fewer paths and comparators: 2^5 indices.
 fn wall() -> String {
     let scene = include_str!("../../examples/lit-wall.yaml");
     let small = scene.replace("path_bits: 5", "path_bits: 3");
@@ -34,7 +34,7 @@ fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// What `qrt export wall.yaml` with more arguments writes, and its figures.
+/// Exports `wall.yaml` with more arguments; returns the circuit and its figures.
 fn exported(folder: &Folder, arguments: &str) -> (Circuit, Value) {
     let all = format!("export wall.yaml --json -o wall.qasm {arguments}");
     let answer = folder.works(&words(&all));
@@ -42,7 +42,7 @@ fn exported(folder: &Folder, arguments: &str) -> (Circuit, Value) {
     (Circuit::read(&text), serde_json::from_str(&answer).unwrap())
 }
 
-/// By channel: good indices, and all, of a pixel.
+/// Returns the numbers of good indices and of all indices of a pixel, by channel.
 fn counts(folder: &Folder, [x, y]: [u32; 2], seed: &str) -> [[u64; 2]; 3] {
     let render = format!(
         "render wall.yaml --model fixed --estimator exact -q --seed {seed} --crop {x},{y},1,1 \
@@ -100,7 +100,7 @@ fn the_counting_circuit_measures_what_counting_draws() {
     assert!(different.len() > 3, "pixels are alike: {different:?}");
 }
 
-/// With the known good indices' phases flipped once more, the index is what it was before the
+/// Flips the phases of the known good indices once more: the index is then the same as before the
 /// oracle.
 #[test]
 fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
@@ -151,7 +151,7 @@ fn the_oracle_turns_the_signs_of_the_good_ids_and_no_others() {
     }
 }
 
-/// Sign by sign, the global phase included.
+/// Compares sign by sign, the global phase included.
 #[test]
 fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
     let oracle = PhaseOracle::table(3, |id| id % 3 == 1).unwrap();
@@ -188,7 +188,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
                 }
                 counting.part(part, &mut |gate| direct.gate(gate)).unwrap();
                 circuit.run(&mut read);
-                // Qubits may have been renumbered: where each is in the text.
+                // Qubits may have been renumbered: find the place of each in the text.
                 let mut places = vec![0; circuit.qubits as usize];
                 for register in export.registers() {
                     let places_of = circuit.register(&register.name);
@@ -209,7 +209,7 @@ fn the_iterate_is_the_circuits_own_amplitude_by_amplitude() {
     }
 }
 
-/// The upper half: its comparator's top bit is set by an X where the whole has a Hadamard.
+/// In the upper half an X sets the comparator's top bit where the whole has a Hadamard.
 #[test]
 fn a_stratum_has_an_x_where_the_whole_has_a_hadamard() {
     let folder = folder();
@@ -224,7 +224,7 @@ fn a_stratum_has_an_x_where_the_whole_has_a_hadamard() {
     let gates = |answer: &Value, name: &str| answer["gates"][name].as_u64().unwrap();
     // One at the beginning, and two in each of seven iterates.
     assert_eq!(gates(&upper, "h") + 1 + 2 * 7, gates(&whole, "h"));
-    // As many fewer in the reflections, and one more at the beginning.
+    // The reflections have one X less for each such Hadamard, and the beginning has one more.
     assert_eq!(gates(&upper, "x") + 2 * 7, gates(&whole, "x") + 1);
     assert_eq!(circuit.tally().get("x").copied(), Some(gates(&upper, "x")));
     for (arguments, why) in [
@@ -298,7 +298,7 @@ fn the_window_is_the_estimators() {
     }
 }
 
-/// The circuit is that of the chosen parameters, and the plan is told beside it.
+/// Checks that the circuit is that of the chosen parameters, and that the plan is printed beside it.
 #[test]
 fn an_asked_accuracy_chooses_the_circuit() {
     let scene = include_str!("../../examples/lit-wall.yaml").replace("path_bits: 5, ", "");
@@ -326,7 +326,7 @@ fn an_asked_accuracy_chooses_the_circuit() {
 fn an_interruption_leaves_no_file() {
     use crate::common::command::signalled;
     let folder = folder();
-    // 30 GB, if it were not stopped.
+    // The export would write 30 GB if it were not stopped.
     let long =
         "export wall.yaml --part counting --set counting.phase_bits=15 --max-gates 2000000000";
     let mut child = folder.started(&words(long));
@@ -406,7 +406,7 @@ fn what_cannot_be_exported_is_said_and_nothing_is_written() {
     );
 }
 
-/// What the refusal advises is followed.
+/// Follows the advice of the refusal.
 #[test]
 fn the_advised_register_is_short_enough_and_the_next_is_not() {
     let folder = folder();
@@ -427,7 +427,7 @@ fn the_advised_register_is_short_enough_and_the_next_is_not() {
     assert!(error.contains("counting.phase_bits=3`"), "{error}");
     folder.works(&words(&run(most, 3)));
     folder.fails(2, &words(&run(most, 4)));
-    // To the last gate.
+    // The limit is exact to the last gate.
     let said = error.split(" gates").next().unwrap();
     let all: String = said.chars().filter(char::is_ascii_digit).collect();
     let all: u64 = all.parse().unwrap();

@@ -1,5 +1,5 @@
-//! What `uncompute: auto` and fronts promise of random scenes: each circuit, gate by gate, counts what `keep` does
-//! on integers, returns every qubit, and has as many qubits and Toffolis as its cost says.
+//! Promises of `uncompute: auto` and of fronts, for random scenes: each circuit, gate by gate, gives the counts of
+//! `keep` on integers, returns every qubit, and has the qubits and Toffolis of its cost.
 
 use super::paths::{film, paths};
 use super::random_scenes;
@@ -20,8 +20,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 const SEED: u64 = 7;
 
-/// Runs all paths of all pixels under every one of these layouts of channel `channel`. `name` says which scene
-/// it is.
+/// Runs all paths of all pixels under each of `layouts` of channel `channel`. `name` identifies the scene in
+/// messages.
 fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
     let under = |strategy| {
         let options = Options {
@@ -44,7 +44,7 @@ fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
             toffoli: toffolis.count() as u64,
         };
         assert_eq!(emitted, layout.cost, "{strategy}: {name}");
-        // The machine refuses a circuit that leaves a qubit behind.
+        // The machine refuses a circuit that leaves garbage.
         let gates = OracleMachine::gates(oracle, SEED, false);
         let gates = gates.unwrap_or_else(|defect| panic!("{strategy}: {defect}: {name}"));
         let traced = paths(&gates, &pixels);
@@ -53,7 +53,7 @@ fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
     }
 }
 
-/// Of all strategies, those that no other beats; at every seventh of their numbers of qubits, `auto` finds them.
+/// Returns the strategies that no other beats; checks that `auto` finds every seventh of them.
 fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
     let workers = Workers {
         threads: NonZeroUsize::new(1),
@@ -69,7 +69,7 @@ fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
     front
 }
 
-/// Checks these layouts of so many random scenes that are scenes, on a thread of each core.
+/// Checks the layouts of up to `scenes` random scenes, skipping invalid ones, on one thread per core.
 fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<Layout>) {
     let next = AtomicUsize::new(0);
     let checked = AtomicUsize::new(0);
@@ -81,7 +81,7 @@ fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<Layou
                 while checked.load(Ordering::Relaxed) < scenes {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     let text = random_scenes::scene(&mut Numbers(seed + number as u64));
-                    // Some have surfaces without area; that is told, and no panic.
+                    // Some scenes have surfaces without area: an error, and no panic.
                     let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
                         continue;
                     };

@@ -1,6 +1,6 @@
-//! The circuit computes what the integers compute: in every example scene, on every path of every
-//! pixel, bit for bit, with every borrowed qubit returned to zero (the gates machine refuses any
-//! other circuit), however the nearest face is found. What is uncomputed when changes no path.
+//! Tests that the circuit computes the same as the integers: in every example scene, on every path of
+//! every pixel, bit for bit, with every ancilla returned to zero (the gates machine refuses any other
+//! circuit), for each way to find the nearest face. The time of uncomputation changes no path.
 
 use super::paths::{Paths, film, oracle, paths};
 use crate::common::scene::from_file;
@@ -10,10 +10,10 @@ use qrt::runtime::machines::OracleMachine;
 /// A film of 8 x 8 pixels with 2^4 paths each.
 const FILM: [&str; 3] = ["film.width=8", "film.height=8", "sampling.path_bits=4"];
 
-/// Numbers short enough for a circuit that is soon built.
+/// Overrides for short numbers, whose circuit is built quickly.
 const SHORT: [&str; 2] = ["precision.fraction=8", "comparator.bits=6"];
 
-/// With numbers and comparators as wide as they are written.
+/// Compares the models with numbers and comparators of the scene's own width.
 fn agrees_at_full_width(file: &str, sets: &[&str]) {
     let oracle = oracle(&from_file(file, &[&FILM[..], sets].concat()));
     let pixels = film(&oracle);
@@ -55,7 +55,7 @@ fn agrees(file: &str, sets: &[&str]) {
                 .count(),
         );
     }
-    // Black pictures agree easily.
+    // Black pictures would agree trivially.
     let paths = 64 << 4;
     assert!(
         lit.iter().all(|lit| *lit > 10),
@@ -68,7 +68,7 @@ fn of_the_cornell_box() {
     agrees("scenes-yaml/cornell-box.yaml", &[]);
 }
 
-/// Lamps are sampled, by themselves and beside rays that meet one.
+/// Samples lamps, alone and beside rays that meet one.
 #[test]
 fn of_sampled_lamps() {
     let depth = "{ bits: [5, 5], light: [4, 4] }";
@@ -76,7 +76,7 @@ fn of_sampled_lamps() {
     for lights in ["sampling.lights=auto", "sampling.lights=mis"] {
         agrees("scenes-yaml/cornell-box.yaml", &[&depths, lights]);
     }
-    // Materials that ask for angles; a lamp of two, where one is a triangle.
+    // Materials that need angles; a lamp of two faces, one of them a triangle.
     agrees("tests/good_scenes/lamps.yaml", &[]);
 }
 
@@ -105,10 +105,10 @@ fn of_the_furnace() {
     agrees("scenes-yaml/furnace.yaml", &[]);
 }
 
-/// With a mesh of four faces in place of 1,536.
+/// Replaces a mesh of 1,536 faces by four faces.
 const MESH: [&str; 1] = ["geometry[2].mesh.obj=../tests/good_scenes/tetrahedron.obj"];
 
-/// With stools of four faces in place of 42.
+/// Replaces stools of 42 faces by four faces each.
 const STOOLS: [&str; 2] = [
     "geometry[3].mesh.obj=../tests/good_scenes/tetrahedron.obj",
     "geometry[4].mesh.obj=../tests/good_scenes/tetrahedron.obj",
@@ -146,7 +146,7 @@ fn of_every_other_scene_at_full_width() {
     }
 }
 
-/// Whose path indices are the coordinates themselves, side by side.
+/// Overrides for path indices that are the coordinates themselves, side by side.
 const LATTICE: &str = "sampling={ sequence: product-lattice, path_bits: 4, \
                        depths: [{ bits: [1, 1] }, { bits: [1, 1] }] }";
 

@@ -1,5 +1,5 @@
-//! The oracle of nearest hits marks the faces that textbook geometry says it should, the same ones
-//! on integers and gate by gate, and what Grover's iterate makes of it is what theory says.
+//! Tests that the oracle of nearest hits marks the faces of textbook geometry, the same on integers and
+//! gate by gate, and that Grover's iterate on it gives the probabilities of theory.
 
 use super::rays::{Meeting, meetings};
 use crate::common::scene::{from_file, written};
@@ -18,7 +18,7 @@ fn oracle(scene: &ValidScene) -> Arc<NearestOracle> {
     Arc::new(NearestOracle::new(scene).unwrap().unwrap())
 }
 
-/// Paths all over the film.
+/// Returns `count` random paths all over the film.
 fn some_rays(scene: &ValidScene, count: u64) -> Vec<Asked> {
     let film = scene.scene().film;
     let mut stream = Stream::new(1, 0, 0, 0);
@@ -33,7 +33,7 @@ fn some_rays(scene: &ValidScene, count: u64) -> Vec<Asked> {
         .collect()
 }
 
-/// How far a distance and a place may be off, in stage units.
+/// Returns the tolerances of a distance and of a place, in stage units.
 fn tolerance(oracle: &NearestOracle, met: &Meeting) -> [f64; 2] {
     let ulp = 1.0 / f64::from(1_u32 << oracle.fraction);
     let distance = ulp * (2.0 + 4.0 * met.distance.abs()) * (1.0 + 1.0 / met.slope);
@@ -43,8 +43,8 @@ fn tolerance(oracle: &NearestOracle, met: &Meeting) -> [f64; 2] {
     ]
 }
 
-/// Every face and many rays against textbook geometry, as far as rounding leaves no doubt; at most
-/// `doubt` of the meetings are in doubt.
+/// Compares every face and many rays with textbook geometry, unless rounding may decide; at most the
+/// fraction `doubt` of the meetings may be left out in this way.
 fn marks_what_is_met(scene: &ValidScene, count: u64, doubt: f64) {
     let oracle = oracle(scene);
     let machine = NearestMachine::fixed(oracle.clone(), SEED);
@@ -73,7 +73,7 @@ fn marks_what_is_met(scene: &ValidScene, count: u64, doubt: f64) {
             }
             let [far, wide] = tolerance(&oracle, &meeting);
             let reached = meeting.distance;
-            // From the plane, or through an edge.
+            // Rounding may decide near the plane or near an edge.
             if reached.abs() <= far || meeting.margin.abs() <= wide {
                 doubtful += 1;
                 continue;
@@ -110,7 +110,7 @@ fn faces_are_marked_that_textbook_geometry_says_are_met() {
     marks_what_is_met(&knot, 60, 0.02);
 }
 
-/// One triangle, before a perspective camera that stands askew.
+/// One triangle in front of a skewed perspective camera.
 const ONE: &str = "
 name: one
 camera: { perspective: { eye: [0.3, 0.2, 2], target: [0, 0.1, 0], vfov: 50 } }
@@ -139,7 +139,7 @@ sampling: { path_bits: 6, depths: [{ bits: [5, 5] }] }
 precision: { fraction: 10 }
 ";
 
-/// What a ray meets, by the marks of a search that knows of nothing yet.
+/// Returns the hits of a ray, by the marks of a search without a best hit so far.
 fn met(answers: &Answers, ray: usize) -> Vec<Candidate> {
     let states = answers.marks(ray).iter().zip(answers.distances(ray));
     let met = states.zip(0..).filter(|((mark, _), _)| **mark);
@@ -150,9 +150,9 @@ fn met(answers: &Answers, ray: usize) -> Vec<Candidate> {
     .collect()
 }
 
-/// Both machines say the same of every basis state, and mark what is before the nearest so far:
-/// nearer, or as near and listed first. All qubits come back as they were, or the gates machine
-/// refuses.
+/// Checks that both machines agree on every basis state, and mark the faces before the nearest so far:
+/// nearer, or equally near and earlier in the list. The gates machine refuses a circuit that does not
+/// return all qubits to their values.
 fn marks_what_is_nearer(scene: &ValidScene, count: u64) {
     let oracle = oracle(scene);
     let fixed = NearestMachine::fixed(oracle.clone(), SEED);
@@ -166,7 +166,7 @@ fn marks_what_is_nearer(scene: &ValidScene, count: u64) {
         assert_eq!(all.marks(place), by_gates.marks(place), "{ray:?}");
         assert_eq!(all.distances(place), by_gates.distances(place), "{ray:?}");
         let met = met(&all, place);
-        // Any of what is met, the number next to it, or a distance next to it.
+        // Choose one of the hits, the number next to it, or a distance next to it.
         let any = (dice.uniform() * met.len() as f64) as usize;
         ray.best = met.get(any).map(|best| match place % 4 {
             0 => Candidate {
@@ -205,7 +205,7 @@ fn what_is_nearer_is_marked_on_integers_and_by_gates() {
     }
     marks_what_is_nearer(&written(OVERLAPS, &[]), 500);
     marks_what_is_nearer(&written(ONE, &[]), 500);
-    // Numbers that fill more than one block of lanes.
+    // More numbers than one block of lanes holds.
     marks_what_is_nearer(&from_file("scenes-yaml/knot.yaml", &short), 12);
 }
 
@@ -263,8 +263,8 @@ fn of_faces_in_one_plane_the_first_listed_is_nearest() {
 
 #[test]
 fn faces_that_meet_leave_no_gap() {
-    // Every ray through the middle of the big quad meets something, though two triangles share an
-    // edge across it: they and the quad behind are all that is there.
+    // Every ray through the middle of the big quad meets a face, although two triangles share an edge
+    // across it: there are only these and the quad behind.
     let text = "
 name: seam
 camera: { perspective: { eye: [0.3, 0.1, 2], target: [0, 0, 0], vfov: 20 } }
@@ -289,7 +289,7 @@ precision: { fraction: 8 }
             _ => both += 1,
         }
     }
-    // They overlap by a few units of 1/256.
+    // The triangles overlap by a few units of 1/256.
     assert!(both > 50 && both * 5 < one, "{both} meet both, {one} one");
 }
 
@@ -309,7 +309,7 @@ fn a_circuit_that_leaves_something_behind_is_refused() {
     for gate in (0..last).step_by(last / 20) {
         let mut tampered = parts.clone();
         tampered[2].gates.remove(gate);
-        // Some gates do nothing for so few rays; the last one is an X or a copy of the ray's path
+        // Some gates do nothing for these few rays; the last gates are an X or a copy of the ray's path
         // index.
         if gate > last / 2 {
             assert!(
@@ -320,7 +320,7 @@ fn a_circuit_that_leaves_something_behind_is_refused() {
     }
 }
 
-/// `H` on every qubit of a number.
+/// Applies `H` to every qubit of a number.
 fn hadamard(amplitudes: &mut [f64]) {
     let mut half = 1;
     while half < amplitudes.len() {
@@ -363,14 +363,14 @@ fn iterates_of_the_circuits_signs_turn_by_the_angle_of_theory() {
                 (probability - theory).abs() < 1e-13,
                 "{marked}: {probability}, {theory}"
             );
-            // Marked states are as likely as each other, and so are the others.
+            // All marked states are equally likely, and so are all others.
             for class in [true, false] {
                 let (least, most) = of(class).fold((1.0_f64, 0.0_f64), |(least, most), p| {
                     (least.min(p), most.max(p))
                 });
                 assert!(most - least < 1e-13 || of(class).count() == 0);
             }
-            // The oracle; then all but zero are flipped, between Hadamards.
+            // The oracle; then a sign flip of all states except zero, between Hadamards.
             for (amplitude, sign) in amplitudes.iter_mut().zip(signs) {
                 *amplitude *= if *sign { -1.0 } else { 1.0 };
             }

@@ -1,4 +1,4 @@
-//! A circuit holds what its scene requires, and nothing else.
+//! Tests that a circuit holds the parts that its scene requires, and no others.
 
 use crate::common::scene::written;
 use qrt::circuit::{Circuit, Op, Program, lower};
@@ -64,7 +64,7 @@ fn a_second_copy_of_a_primitive_costs_nothing() {
     same_gates(&changed("sampling:", copy));
 }
 
-/// Two primitives of one plane share its distance: the second costs its edges.
+/// Two primitives of one plane share its distance: the second costs only its edges.
 #[test]
 fn a_second_primitive_on_a_plane_costs_no_division() {
     let beside = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0], [3, 1, 0], [2, 1, 0]], material: white }\nsampling:";
@@ -78,10 +78,10 @@ fn count(program: &Program, kind: impl Fn(&Op) -> bool) -> usize {
     program.ops.iter().filter(|op| kind(op)).count()
 }
 
-/// What stands before the sampling of a room with a tilted quad.
+/// Text that adds a tilted quad before the sampling of a room.
 const TILTED: &str = "  - quad: { vertices: [[2, 0, 0], [3, 0, 0.3], [3, 1, 0.3], [2, 1, 0]], material: white }\nsampling:";
 
-/// Constant products are for the film's rays (which are affine in the sample) and for cos_theta.
+/// Constant products serve only the film's rays (which are affine in the sample) and cos_theta.
 #[test]
 fn axis_aligned_walls_cost_no_constant_products() {
     let scales = |program: &Program| {
@@ -108,7 +108,7 @@ fn axis_aligned_walls_cost_no_constant_products() {
     assert!(scales(&program(&changed("sampling:", TILTED))) > 0);
 }
 
-/// Nothing but mirrors scatters here, so no ray but the camera's is sampled.
+/// Only mirrors scatter here, so only the camera's ray is sampled.
 #[test]
 fn a_mirror_depth_costs_no_sample_qubits() {
     let mirror = changed(
@@ -131,7 +131,7 @@ fn no_glass_no_roots_and_no_refraction() {
     assert!(roots(&glass) > 0);
 }
 
-/// Albedos along a path multiply within a table over the surfaces that it met.
+/// A table over the surfaces of a path multiplies its albedos.
 #[test]
 fn weights_that_depend_on_materials_alone_are_tables() {
     let products = |passes: Passes| {
@@ -151,7 +151,7 @@ fn weights_that_depend_on_materials_alone_are_tables() {
     assert!(products(Passes::ALL) < products(without));
 }
 
-/// Every pass removes gates from a scene that has something for it to do, and none adds any.
+/// Checks that every pass removes gates from a scene that it applies to, and that none adds any.
 #[test]
 fn every_pass_pays() {
     let toffoli = |passes: Passes| {

@@ -1,4 +1,4 @@
-//! A reader of exported circuits that takes the promised lines and no others.
+//! A reader of exported circuits that accepts the promised lines and no others.
 
 use qrt::circuit::Qubit;
 use qrt::circuit::quantum::{QuantumGate, Turns};
@@ -15,15 +15,15 @@ pub(crate) struct Line {
     pub(crate) on: Vec<Qubit>,
 }
 
-/// A circuit, as it was read.
+/// A circuit read from a text.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Circuit {
     pub(crate) comments: Vec<String>,
-    /// By name: its qubits, in the order of declaration.
+    /// Qubits of each register by its name, in the order of declaration.
     pub(crate) registers: Vec<(String, Range<Qubit>)>,
     pub(crate) qubits: u32,
     pub(crate) gates: Vec<Line>,
-    /// Qubits, by the classical bit that each is measured into.
+    /// Qubits, by the classical bit into which each is measured.
     pub(crate) outcome: Vec<Qubit>,
 }
 
@@ -32,7 +32,7 @@ fn whole(text: &str) -> u32 {
     text.parse().unwrap()
 }
 
-/// `name[3]`
+/// Parses `name[3]`.
 fn indexed(text: &str) -> (&str, u32) {
     let (name, rest) = text.split_once('[').unwrap();
     (name, whole(rest.strip_suffix(']').unwrap()))
@@ -70,7 +70,7 @@ impl Circuit {
             match declared {
                 Some(("qubit" | "qreg", name, size)) => {
                     assert!(read.gates.is_empty() && size > 0);
-                    // Neither gates of the libraries nor words of the languages.
+                    // The names must be neither gates of the libraries nor words of the languages.
                     let known = [
                         "path",
                         "comparator",
@@ -114,7 +114,7 @@ impl Circuit {
         read
     }
 
-    /// The qubits of a register; none if it is not there.
+    /// Returns the qubits of a register; empty if the circuit does not have it.
     pub(crate) fn register(&self, name: &str) -> Vec<Qubit> {
         let mut registers = self.registers.iter();
         let found = registers.find(|(known, _)| known == name);
@@ -157,7 +157,7 @@ impl Circuit {
         }
     }
 
-    /// By name: how many gates.
+    /// Returns the number of gates by name.
     pub(crate) fn tally(&self) -> BTreeMap<&str, u64> {
         let mut tally = BTreeMap::new();
         for gate in &self.gates {
@@ -190,7 +190,7 @@ impl Circuit {
     }
 }
 
-/// An angle that is a fraction of 2^40 turns.
+/// Converts an angle that is a multiple of 1/2^40 turns.
 fn turns(angle: f64) -> Turns {
     let steps = angle / TAU * 2_f64.powi(40);
     assert!((steps - steps.round()).abs() < 1e-3, "{angle}");

@@ -8,8 +8,8 @@ use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Defect, OracleMachine};
 use std::sync::Arc;
 
-/// A floor, a coloured wall and a lamp; 4 x 3 pixels of 2^5 paths of two rays. Small enough to be
-/// tried whole.
+/// A floor, a coloured wall and a lamp; 4 x 3 pixels of 2^5 paths of two rays. The scene is small enough
+/// to test all of it.
 pub(crate) const CORNER: &str = "\
 name: corner
 camera: { perspective: { eye: [0.3, 1.2, -3], target: [0, 0.8, 0], up: [0, 1, 0], vfov: 50 } }
@@ -33,7 +33,7 @@ pub(crate) fn oracle(scene: &ValidScene) -> Arc<Oracle> {
     Arc::new(Oracle::rgb(scene, Options::default()).unwrap())
 }
 
-/// All pixels of the oracle's film, row by row.
+/// Returns all pixels of the oracle's film, row by row.
 pub(crate) fn film(oracle: &Oracle) -> Vec<[u32; 2]> {
     let [width, height] = oracle.film;
     (0..height)
@@ -41,14 +41,14 @@ pub(crate) fn film(oracle: &Oracle) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// By channel, of every path: its colour and its count; pixel by pixel, and by path index.
+/// Colour and count of every path, by channel; pixel by pixel, and by path index.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Paths {
     pub(crate) colours: [Vec<i64>; 3],
     pub(crate) good: [Vec<i64>; 3],
 }
 
-/// All paths of these pixels, as a machine computes them.
+/// Computes all paths of `pixels` on a machine.
 pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Paths, Defect> {
     let mut paths = Paths::default();
     let mut expected = (0, 0);
@@ -69,7 +69,7 @@ pub(crate) fn paths(machine: &OracleMachine, pixels: &[[u32; 2]]) -> Result<Path
     Ok(paths)
 }
 
-/// The program's inputs for a path: its index, and no comparator.
+/// Returns the program's inputs for a path: its index, and 0 as the comparator.
 pub(crate) fn inputs(oracle: &Oracle, id: u64) -> Vec<u64> {
     let inputs = oracle.program.inputs.iter();
     inputs
@@ -77,7 +77,7 @@ pub(crate) fn inputs(oracle: &Oracle, id: u64) -> Vec<u64> {
         .collect()
 }
 
-/// The number that an operand is, with these registers.
+/// Returns the value of an operand, given the registers.
 pub(crate) fn number(operand: Operand, registers: &[u64]) -> i64 {
     match operand {
         Operand::Constant(value) => value,

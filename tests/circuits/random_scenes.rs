@@ -1,12 +1,12 @@
-//! Random small scenes, path by path through all models: the circuit does what the integers do, bit for bit, and
-//! floating point what both do, but for the width of numbers.
+//! Runs random small scenes path by path through all models: the circuit computes the same as the integers, bit for
+//! bit, and floating point differs only by the width of numbers.
 
 use crate::common::numbers::Numbers;
 use qrt::core::front::parse;
 use qrt::runtime::verify::{Options, verify};
 use std::fmt::Write as _;
 
-/// A scene that looks at a few surfaces; coordinates are eighths, so that parallelograms are flat.
+/// Returns a scene that shows a few surfaces; coordinates are eighths, so that parallelograms are flat.
 pub(super) fn scene(numbers: &mut Numbers) -> String {
     let mut text = String::from("name: random\n");
     let eighths = |numbers: &mut Numbers, most: usize| {
@@ -60,7 +60,7 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
         "precision: {{ fraction: {bits} }}\ncomparator: {{ bits: {comparator} }}"
     );
     let second = numbers.below(3);
-    // Half of them sample their lamps, in every way.
+    // Half of the scenes sample their lamps, in every way.
     let lights = ["none", "none", "none", "auto", "mis", "next-event"][numbers.below(6)];
     let light = if lights == "none" {
         ""
@@ -78,7 +78,7 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
     text
 }
 
-/// Checks so many scenes that are scenes, on a thread of each core.
+/// Checks up to `scenes` random scenes, skipping invalid ones, on one thread per core.
 fn check(scenes: usize, seed: u64) {
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicUsize, Ordering};
@@ -95,7 +95,7 @@ fn check(scenes: usize, seed: u64) {
                     }
                     let mut numbers = Numbers(seed + number as u64);
                     let text = scene(&mut numbers);
-                    // Some have surfaces without area; that is told, and no panic.
+                    // Some scenes have surfaces without area: an error, and no panic.
                     let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
                         continue;
                     };
@@ -122,7 +122,7 @@ fn check(scenes: usize, seed: u64) {
         next.into_inner(),
         100.0 * parted / checked as f64
     );
-    // A word of 12 to 18 bits decides another way at edges alone.
+    // With 12 to 18 bits, fixed and real numbers differ only at edges.
     assert!(parted / (checked as f64) < 0.02);
 }
 

@@ -1,4 +1,4 @@
-//! Primary rays and what they meet, computed by themselves: in scene units, by textbook geometry.
+//! Primary rays and their hits, computed independently: in scene units, by textbook geometry.
 
 use qrt::core::sampling::{Coordinate, PathPoints};
 use qrt::core::scene::Camera;
@@ -31,22 +31,22 @@ fn unit(a: V) -> V {
     a.map(|c| c / length)
 }
 
-/// What a ray and a polygon have to do with each other.
+/// Position of a ray relative to a polygon.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting {
     /// The distance to the polygon's plane, in stage units of the ray's direction.
     pub(crate) distance: f64,
-    /// How far within the polygon's edges, in stage units; negative outside.
+    /// Distance inside the polygon's edges, in stage units; negative outside.
     pub(crate) margin: f64,
-    /// How fast the ray nears the plane, in the plane's main coordinate: what a distance is
-    /// divided by.
+    /// Speed at which the ray nears the plane, in the plane's main coordinate: the divisor of the
+    /// distance.
     pub(crate) slope: f64,
-    /// The direction's length.
+    /// Length of the direction.
     pub(crate) length: f64,
 }
 
-/// What the ray of a path has to do with all polygons of the scene, whose unit is `scale` stage
-/// units.
+/// Computes the position of a path's ray relative to all polygons of the scene. One unit of the scene is
+/// `scale` stage units.
 pub(crate) fn meetings(
     scene: &ValidScene,
     scale: f64,

@@ -1,5 +1,5 @@
-//! Whatever is undone when, a circuit computes the same and returns every qubit; and `uncompute: auto`
-//! finds the cheapest that fits.
+//! Tests that a circuit computes the same and returns every qubit under every strategy, and that
+//! `uncompute: auto` finds the cheapest that fits.
 
 use super::paths::{CORNER, film, paths};
 use crate::common::command::Folder;
@@ -12,8 +12,8 @@ use qrt::runtime::machines::OracleMachine;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// All paths of all pixels by gates, which refuse a circuit that leaves a qubit behind: as `keep`
-/// computes them.
+/// Checks that all paths of all pixels by gates, which refuse a circuit that leaves garbage, are the
+/// same as under `keep`.
 fn agree(scene: &ValidScene, strategies: &[Strategy]) {
     let under = |strategy| {
         let options = Options {
@@ -75,7 +75,7 @@ fn auto_is_the_cheapest_that_fits() {
     assert_eq!(front[0], keep);
     assert!(front.len() > 20);
     for place in (1..front.len()).step_by(3) {
-        // As many as it needs, and one fewer than the next cheaper one does.
+        // The qubits that it needs, and one fewer than the next cheaper strategy needs.
         for qubits in [front[place].cost.qubits, front[place - 1].cost.qubits - 1] {
             let budget = format!("budget.qubits={qubits}");
             let scene = written(CORNER, &["circuit.uncompute=auto", &budget]);
@@ -83,14 +83,14 @@ fn auto_is_the_cheapest_that_fits() {
             assert_eq!(call_cost(&[oracle]), front[place].cost, "{budget}");
         }
     }
-    // If none does, the number that is told is the least there is.
+    // If no strategy fits, the error names the least number of qubits.
     let scene = written(CORNER, &["circuit.uncompute=auto", "budget.qubits=1"]);
     let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
     assert_eq!(
         call_cost(&[oracle]).qubits,
         front.last().unwrap().cost.qubits
     );
-    // What was found for a scene is not taken for a part of it.
+    // The cached strategy of a scene is not used for a part of the scene.
     let written_for = |qubits: u64| {
         let budget = format!("budget.qubits={qubits}");
         written(CORNER, &["circuit.uncompute=auto", &budget])
@@ -103,13 +103,13 @@ fn auto_is_the_cheapest_that_fits() {
     assert!(found != Strategy::KEEP && found == strategy(&scene));
     assert_eq!(strategy(&scene.with_rays(1)), Strategy::KEEP);
     assert_eq!(strategy(&scene.clone()), found);
-    // Without a budget nothing is undone early.
+    // Without a budget, nothing is uncomputed early.
     let scene = written(CORNER, &["circuit.uncompute=auto"]);
     assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));
 }
 
-/// The box as it is, on fewer qubits than a path's rays and hits alone had under `keep`: two pixels, all of
-/// their paths.
+/// Runs the box as it is, on fewer qubits than the rays and hits of a path alone had under `keep`: two
+/// pixels, all of their paths.
 #[test]
 fn the_box_fits_into_five_hundred_qubits() {
     let sets = ["circuit.uncompute=auto", "budget.qubits=500"];
@@ -151,7 +151,7 @@ fn the_command_lists_the_front_and_tells_the_least() {
     let front = front["front"].as_array().unwrap();
     let qubits = |place: usize| front[place]["qubits"].as_u64().unwrap();
     assert!(front.len() > 5 && qubits(0) > 2 * qubits(front.len() - 1));
-    // Ghosts save only where something is undone early, and never more than that costs.
+    // Ghosts save only where something is uncomputed early, and never more than that costs.
     let ands = |line: &serde_json::Value, key: &str| line[key].as_u64().unwrap();
     let keep = ands(&front[0], "and_measured");
     assert_eq!(ands(&front[0], "estimated_and_with_ghosts"), keep);
@@ -163,7 +163,7 @@ fn the_command_lists_the_front_and_tells_the_least() {
         fewer += usize::from(ghosts < measured);
     }
     assert!(3 * fewer > front.len(), "{fewer} of {}", front.len());
-    // What is chosen is told.
+    // The command prints the chosen strategy.
     let budget = format!("budget.qubits={}", qubits(3));
     let sets = ["--set", "circuit.uncompute=auto", "--set", &budget];
     let told = folder.works(&[&["inspect", file][..], &sets].concat());

@@ -1,9 +1,9 @@
-//! A wrong circuit is found to be wrong.
+//! Tests that verification finds wrong circuits.
 //!
-//! Verification is only as good as what it catches. Here circuits are tampered with, in every way
-//! that a compiler could get them wrong. A simulation of its own, which shares nothing with the
-//! machines, runs each of them on every path of the scene; verification must object to exactly
-//! those circuits that do something wrong on one of them, and for the right reason.
+//! Verification is only as good as the faults that it finds. These tests tamper with circuits in every
+//! way in which a compiler could get them wrong. An independent simulation, which shares no code with
+//! the machines, runs each of them on every path of the scene. Verification must refuse exactly those
+//! circuits that are wrong on one of them, and for the right reason.
 
 use super::paths::simulator::{States, qubits};
 use super::paths::{CORNER, film, inputs, number, oracle, paths, word};
@@ -24,16 +24,16 @@ struct Checked {
     oracle: Arc<Oracle>,
     parts: OracleCircuits,
     pixels: Vec<[u32; 2]>,
-    /// What the untouched circuit computes: by channel, of every path, colour and count.
+    /// Results of the untouched circuit: colour and count of every path, by channel.
     right: [Vec<[i64; 2]>; 3],
 }
 
-/// What a circuit does, simulated.
+/// Result of a simulated circuit.
 #[derive(Debug, PartialEq, Eq)]
 enum Simulated {
-    /// Something is not as it was before.
+    /// Some qubit does not have its value from before.
     NotUndone,
-    /// So many (path, channel) pairs have another colour or count.
+    /// Number of (path, channel) pairs with another colour or count.
     Wrong(u64),
     Right,
 }
@@ -55,7 +55,7 @@ impl Checked {
         checked
     }
 
-    /// Before the first gate.
+    /// Returns the states before the first gate.
     fn states(&self) -> States {
         States::new(&self.oracle, &self.parts.compute, SEED, &self.pixels)
     }
@@ -90,7 +90,7 @@ impl Checked {
         }
     }
 
-    /// What verification says, all pixels asked for.
+    /// Verifies all pixels with `parts`.
     fn verified(&self, parts: OracleCircuits) -> Report {
         let options = Options {
             pixels: u64::MAX,
@@ -100,13 +100,13 @@ impl Checked {
         verify_parts(&self.scene, &self.oracle, parts, &options).unwrap()
     }
 
-    /// Verification says what simulation says; that is returned.
+    /// Asserts that verification agrees with simulation; returns the result of the simulation.
     fn agree(&self, parts: OracleCircuits) -> Simulated {
         let simulated = self.simulated(&parts);
         let report = self.verified(parts);
         match simulated {
             Simulated::Right => assert!(report.holds(), "{report:?}"),
-            // A wrong colour may be one beyond its bound: then no others are compared.
+            // A wrong colour may exceed its bound: then verification compares no others.
             Simulated::Wrong(_) if matches!(report.defect, Some(Defect::OutOfBounds { .. })) => {
                 assert!(!report.holds());
             }
@@ -125,7 +125,7 @@ impl Checked {
         simulated
     }
 
-    /// Compute so changed, and undone as exactly as before.
+    /// Returns the circuits with `compute` in place of compute, and its inverse as uncompute.
     fn mirrored(&self, compute: Vec<Gate>) -> OracleCircuits {
         let mut parts = self.parts.clone();
         // Each gate is its own inverse.
@@ -135,7 +135,7 @@ impl Checked {
     }
 }
 
-/// Numbers below `below`, drawn by a key.
+/// Draws `count` numbers below `below` from the seed `key`.
 fn drawn(key: u64, count: usize, below: usize) -> Vec<usize> {
     let mut stream = Stream::new(key, 0, 0, 0);
     (0..count)
@@ -163,8 +163,8 @@ fn an_untouched_circuit_passes() {
     }
 }
 
-/// A permutation without one of its steps is another permutation, on every state that the step acts
-/// on. So a missing gate is caught if, and only if, it ever acts.
+/// A permutation without one of its steps is another permutation, on every state on which the step
+/// acts. A missing gate is therefore found if, and only if, it ever acts.
 #[test]
 fn a_gate_missing_from_uncompute_is_caught_if_it_ever_acts() {
     for sets in [&[][..], &["circuit.uncompute=scoped"]] {
@@ -191,7 +191,7 @@ fn a_gate_missing_from_uncompute_is_caught_if_it_ever_acts() {
 #[test]
 fn a_dirty_qubit_is_named_with_its_path() {
     let checked = Checked::new(&[]);
-    // The last gate that writes to a bit of the colour's register: it stays as it was.
+    // The last gate that writes to a bit of the colour's register: without it, the bit is not uncomputed.
     let colour = word(checked.oracle.channels[0].colour).unwrap();
     let mut held = checked.parts.compute.outputs.iter();
     let of_colour = &held.find(|(id, _)| *id == colour.register).unwrap().1;
@@ -226,7 +226,7 @@ fn a_dirty_qubit_is_named_with_its_path() {
 fn neighbouring_gates_in_the_wrong_order_are_caught_if_it_ever_matters() {
     let checked = Checked::new(&["circuit.uncompute=scoped"]);
     let gates = &checked.parts.uncompute.gates;
-    // Where one writes what the other reads.
+    // Neighbours whose order matters, because one writes a qubit that the other reads.
     let ordered: Vec<usize> = (1..gates.len())
         .filter(|&place| {
             let [one, other] = [gates[place - 1], gates[place]].map(qubits);
@@ -243,7 +243,7 @@ fn neighbouring_gates_in_the_wrong_order_are_caught_if_it_ever_matters() {
     assert!(caught > 30, "{caught}");
 }
 
-/// A circuit that undoes its own mistakes leaves every qubit clean. What it computes gives it away.
+/// A circuit that uncomputes its own mistakes leaves every qubit clean, but computes a wrong result.
 #[test]
 fn a_lost_carry_is_caught_though_all_qubits_return_to_zero() {
     let checked = Checked::new(&[]);
@@ -300,7 +300,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         if let Some(scratch) = op.scratch() {
             program.registers[scratch.index()].width = width;
         }
-        // By the definition of operations, one path after another.
+        // Count the differences by the definition of operations, one path after another.
         let mut differ = 0;
         for (number_of, pixel) in checked.pixels.iter().enumerate() {
             let words = oracle.words(SEED, *pixel);
@@ -329,7 +329,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
     assert!(caught > 3, "{caught}");
 }
 
-/// All colours and comparators are tried, so that nothing is left to chance.
+/// Tries all colours and comparators, so that nothing is left to chance.
 #[test]
 fn every_gate_missing_from_a_comparison_is_caught() {
     let checked = Checked::new(&[]);
@@ -349,8 +349,8 @@ fn every_gate_missing_from_a_comparison_is_caught() {
     }
 }
 
-/// A qubit of another register may be zero on every state that a comparison is tried on, and hold
-/// something when it runs.
+/// A qubit of another register may be zero on every state on which a comparison is tried, and nonzero
+/// when it runs.
 #[test]
 fn a_comparison_on_a_qubit_that_holds_something_is_caught() {
     let checked = Checked::new(&[]);
@@ -361,7 +361,7 @@ fn a_comparison_on_a_qubit_that_holds_something_is_caught() {
         let mut parts = checked.parts.clone();
         let gates = &mut parts.flips[1].gates;
         let target = gates.iter().find_map(|gate| qubits(*gate).last().copied());
-        // Twice, so that it changes nothing.
+        // Two equal gates change nothing.
         let gate = Gate::Cx(places[0], target.unwrap());
         gates.splice(0..0, [gate, gate]);
         let defect = checked.verified(parts).defect;
@@ -398,7 +398,7 @@ fn a_gate_that_is_none_is_refused() {
     }
 }
 
-/// The gate, missing or on another qubit.
+/// Returns the gate with another qubit, or `None` for a missing gate.
 fn mutated(gate: Gate, kind: usize, other: Qubit) -> Option<Gate> {
     let mut places = qubits(gate);
     let place = match kind {
@@ -425,7 +425,7 @@ fn mutated(gate: Gate, kind: usize, other: Qubit) -> Option<Gate> {
     })
 }
 
-/// The hardest to find: compute is wrong in one gate, and uncompute undoes exactly that.
+/// The hardest case: compute is wrong in one gate, and uncompute mirrors exactly that.
 #[test]
 fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
     const MUTATIONS: usize = 120;
@@ -450,7 +450,7 @@ fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
                 Simulated::NotUndone => undone += 1,
             }
         }
-        // A mirrored circuit undoes itself, whatever it is.
+        // A mirrored circuit always uncomputes itself.
         assert_eq!(undone, 0);
         println!(
             "{sets:?}: of {MUTATIONS} mutations {caught} change a path, and all of these are caught"
@@ -459,7 +459,7 @@ fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
     }
 }
 
-/// Counts that are read as four times as many are those of colours beyond their bound.
+/// Counts that are read as four times their value are those of colours beyond their bound.
 #[test]
 fn a_colour_beyond_its_bound_is_noticed_by_every_machine() {
     let scene = written(CORNER, &[]);

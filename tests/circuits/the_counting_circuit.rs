@@ -1,6 +1,6 @@
-//! The paper's whole figure for a scene: Hadamards, controlled powers of the Grover iterate with
-//! every gate and ancilla of the scene's oracle, and the inverse Fourier transform give the
-//! distribution that counting draws from, which knows S alone.
+//! Tests of the paper's whole figure for a scene: Hadamards, controlled powers of the Grover iterate with
+//! every gate and ancilla of the scene's oracle, and the inverse Fourier transform give the same
+//! distribution as counting by draws, which uses S alone.
 
 use super::paths::{oracle, paths};
 use crate::common::scene::written;
@@ -49,7 +49,7 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// By pixel and channel: which indices (path below, comparator above) the fixed machine calls good.
+/// Returns, by pixel and channel, the good indices (path below, comparator above) on the fixed machine.
 fn tables(scene: &ValidScene) -> Vec<[Vec<bool>; 3]> {
     let oracle = oracle(scene);
     let machine = OracleMachine::fixed(oracle.clone(), SEED, true);
@@ -77,7 +77,7 @@ fn is_the_distribution(sets: &[&str], phase_bits: u32) {
             let good = table.iter().filter(|good| **good).count() as u64;
             different.insert(good);
             for window in [Window::Rect, Window::Sine] {
-                // A channel's own oracle, and its part of that of all.
+                // A channel's own oracle, and its part of the oracle of all channels.
                 let (oracle, number) = match window {
                     Window::Rect => (&apart[channel], 0),
                     Window::Sine => (&*together, channel),
@@ -96,7 +96,7 @@ fn is_the_distribution(sets: &[&str], phase_bits: u32) {
                 }
                 let report = counted.report;
                 assert_eq!(report.queries, (1 << phase_bits) - 1);
-                // Once before and once after each query, and at the end.
+                // The ancillas are checked once before and once after each query, and at the end.
                 assert_eq!(report.checks, report.queries + 2);
                 assert!(report.qubits > 200 + report.superposed, "{report:?}");
                 assert!(report.most_states.unwrap() <= 1 << report.superposed);
@@ -171,8 +171,8 @@ fn gives_the_distribution_of_every_stratum() {
     }
 }
 
-/// O_0 flips the phases of all but `|0...0>`. With that of `|0...0>` alone the indices that are
-/// *not* good are counted.
+/// O_0 flips the phases of all states except `|0...0>`. If it flips that of `|0...0>` alone, counting
+/// gives the indices that are *not* good.
 #[test]
 fn counts_the_others_where_the_reflection_has_the_other_sign() {
     let scene = written(WALL, &[]);
@@ -186,7 +186,7 @@ fn counts_the_others_where_the_reflection_has_the_other_sign() {
     let mut machine = Sparse::new(counting.qubits());
     counting
         .part(Part::Counting, &mut |gate| match gate {
-            // What makes the sign right, and no other gate of the circuit, is such a Z.
+            // Only the gates that correct the sign are Zs on a qubit of the phase register.
             QuantumGate::Phase { on: [qubit], .. } if counting.phase_register().contains(qubit) => {
                 Ok(())
             }
@@ -199,7 +199,7 @@ fn counts_the_others_where_the_reflection_has_the_other_sign() {
     assert!(off(&found, &others) < 1e-12);
 }
 
-/// The logarithm of the size, not the size, is what a phase register adds to an oracle.
+/// A phase register adds the logarithm of its size to the qubits of an oracle.
 #[test]
 fn has_a_qubit_more_for_twice_the_size() {
     let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
@@ -212,11 +212,11 @@ fn has_a_qubit_more_for_twice_the_size() {
             assert_eq!(counting.queries(), (1 << phase_bits) - 1);
         }
     }
-    // Grover's reflection borrows the oracle's own ancillas.
+    // Grover's reflection uses the oracle's own ancillas.
     assert_eq!(iterate, oracle.qubits());
 }
 
-/// Of gates with no more than two controls, through the oracle's own ancillas.
+/// Uses gates with no more than two controls, through the oracle's own ancillas.
 #[test]
 fn may_be_written_without_many_controls() {
     let scene = written(WALL, &[]);

@@ -1,8 +1,8 @@
-//! What stands for the whole oracle is the whole oracle.
+//! Tests that the machines' shortcut equals the whole oracle.
 //!
-//! Machines run compute and uncompute once a path, and the comparison apart: a path's good indices
-//! are then known without trying its comparators. Here all of it runs as one circuit on every basis
-//! state (index, comparator).
+//! Machines run compute and uncompute once per path, and the comparison apart: the number of a path's
+//! good indices is then known without trying its comparators. Here all of it runs as one circuit on
+//! every basis state (index, comparator).
 
 use super::paths::{CORNER, inputs, number, oracle, paths};
 use crate::common::scene::written;
@@ -15,7 +15,7 @@ use qrt::runtime::render::{Model, Options, render};
 
 const SEED: u64 = 11;
 
-/// S of these pixels by channel, counted from signs of the whole circuit.
+/// Returns S of `pixels` by channel, counted from signs of the whole circuit.
 fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 3]> {
     let comparators = 1_u64 << oracle.comparator_bits();
     let paths = 1_u64 << oracle.points.path_bits();
@@ -82,7 +82,7 @@ fn is_exact(sets: &[&str]) {
     let oracle = oracle(&scene);
     let pixels = [[1, 1], [3, 2], [1, 2]];
     let good = whole(&scene, &oracle, &pixels);
-    // Something to turn, and something not to.
+    // Some indices are flipped, and some are not.
     let ids = 1 << (oracle.points.path_bits() + oracle.comparator_bits());
     for c in 0..3 {
         assert!(good.iter().any(|good| (1..ids).contains(&good[c])));
@@ -135,7 +135,7 @@ fn with_the_papers_records() {
     is_exact(&["circuit.nearest=paper"]);
 }
 
-/// As many comparators as colours, and more.
+/// Tests one threshold for each colour, and more.
 #[test]
 fn with_fine_thresholds() {
     for bits in ["comparator.bits=6", "comparator.bits=8"] {

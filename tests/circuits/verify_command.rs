@@ -1,4 +1,4 @@
-//! `qrt verify` as scripts see it.
+//! Tests of `qrt verify` from the outside.
 
 use super::paths::{CORNER, film, oracle, paths};
 use crate::common::command::Folder;
@@ -82,7 +82,7 @@ fn the_answer_is_versioned_json() {
     assert!(answer["gates"].as_u64().unwrap() > 1000);
 }
 
-/// Portions check each pixel once, and find together what one process finds.
+/// Portions check each pixel once, and give together the result of one process.
 #[test]
 fn portions_check_all_pixels_together() {
     let folder = folder();
@@ -100,7 +100,7 @@ fn portions_check_all_pixels_together() {
     all.sort();
     asked.sort();
     assert_eq!(all, asked);
-    // Root mean squares over as many pixels as each has.
+    // Root mean squares are weighted with the number of pixels of each portion.
     let squares = |of: &Value| {
         let rmse = of["width_error"]["rmse_rgb"][0].as_f64().unwrap();
         rmse * rmse * pixels(of).len() as f64
@@ -114,7 +114,7 @@ fn portions_check_all_pixels_together() {
     );
 }
 
-/// E_W by its definition, from the pictures of both models.
+/// Computes E_W by its definition, from the pictures of both models.
 #[test]
 fn the_width_error_is_that_of_the_pictures() {
     let folder = folder();
@@ -228,7 +228,7 @@ fn an_interruption_ends_it_and_memory_is_bounded_whatever_the_paths() {
     ];
     let mut child = folder.started(&[&["verify", "corner.yaml"], &long[..]].concat());
     let id = child.id();
-    // So long that it is at the paths.
+    // Wait until the command has begun to trace paths.
     std::thread::sleep(Duration::from_millis(2500));
     assert!(child.try_wait().unwrap().is_none(), "finished too soon");
     let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();

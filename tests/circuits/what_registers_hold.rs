@@ -1,6 +1,6 @@
-//! A formula that may be infinite within the ranges of its variables has no circuit: floating point
-//! computes with infinities, registers cannot. A condition does not help, for a circuit computes both
-//! branches of `if_less`.
+//! Tests that a formula that may be infinite within the ranges of its variables has no circuit: floating
+//! point computes with infinities, but registers cannot. A condition does not help, because a circuit
+//! computes both branches of `if_less`.
 
 use crate::common::scene::written;
 use qrt::core::oracle::{Options, Oracle};
@@ -9,7 +9,7 @@ use qrt::core::syntax::Problem;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::render::{self, Model};
 
-/// A scene with this value of a BSDF.
+/// Returns a scene with the value `value` of a BSDF.
 fn text(value: &str) -> String {
     format!(
         r#"
@@ -36,13 +36,13 @@ fn scene(value: &str) -> ValidScene {
     written(&text(value), &[])
 }
 
-/// The code of the error with which a circuit of this value is refused.
+/// Returns the code of the error with which a circuit of this value is refused.
 fn refused(value: &str) -> Option<&'static str> {
     let refused = Oracle::rgb(&scene(value), Options::default()).err();
     refused.map(|error| Problem::code(&error.problem()))
 }
 
-/// The greatest difference between the pictures of the real and the fixed machine, over the scale.
+/// Returns the greatest difference between the pictures of the real and the fixed machine, over the scale.
 fn difference(scene: &ValidScene) -> f64 {
     let [real, fixed] = [Model::Real, Model::Fixed].map(|model| {
         let options = render::Options {
@@ -91,7 +91,7 @@ fn a_function_that_is_finite_has_a_circuit() {
     }
 }
 
-/// The wall faces the eye so exactly that rounding takes the cosine beyond 1, where no angle is.
+/// The wall faces the eye so exactly that rounding takes the cosine beyond 1, where `acos` is undefined.
 #[test]
 fn an_angle_of_a_cosine_that_rounding_takes_beyond_1_is_a_number() {
     let toward = "orthographic: { eye: [1, 1, 1], target: [0, 0, 0], height: 0.5 }";

@@ -1,4 +1,4 @@
-//! What work takes is bounded, in memory and in time, and what takes too much is refused before it begins.
+//! Tests that work is bounded in memory and in time, and that work beyond the bounds is refused before it begins.
 #![cfg(target_os = "linux")]
 
 use crate::common::command::{Folder, signalled, worked};
@@ -6,16 +6,16 @@ use std::fmt::Write as _;
 use std::fs;
 use std::time::{Duration, Instant};
 
-/// What a command has used, as it was read last before its end.
+/// Resources that a command has used, as read last before its end.
 #[derive(Default)]
 struct Used {
-    /// The most memory that was resident, in bytes.
+    /// Peak of resident memory, in bytes.
     bytes: u64,
     /// Seconds of all processors.
     seconds: f64,
 }
 
-/// Runs the command, which must end with this code.
+/// Runs the command, which must end with the exit code `code`.
 fn used(folder: &Folder, code: i32, arguments: &[&str]) -> (Used, String) {
     let mut child = folder.started(arguments);
     let process = child.id();
@@ -41,8 +41,8 @@ fn used(folder: &Folder, code: i32, arguments: &[&str]) -> (Used, String) {
 fn the_knot_is_verified_and_run_gate_by_gate_in_a_gigabyte() {
     let folder = Folder::new();
     let knot = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/knot.yaml");
-    // Two paths of a pixel. The estimate allows it, too. The least is what was measured of the program,
-    // and with gates that are held it would be 7 GB.
+    // Two paths of a pixel. The estimate allows them, too. `least` is the measured size of the program;
+    // with gates held in memory it would be 7 GB.
     for (uncompute, least) in [("keep", 300_000_000), ("scoped", 100_000_000)] {
         let uncompute = format!("circuit.uncompute={uncompute}");
         let few = [
@@ -73,7 +73,7 @@ fn the_knot_is_verified_and_run_gate_by_gate_in_a_gigabyte() {
     }
 }
 
-/// A scene of these materials, one for each of so many quads, whose paths have so many rays.
+/// Returns a scene with `materials`, `quads` quads for each of them, and paths of the rays `rays`.
 fn scene(materials: &[String], quads: usize, rays: &[String]) -> String {
     let mut text = String::from(
         "name: large
@@ -138,7 +138,7 @@ fn circuits_of_few_faces_and_many_rays_are_refused_with_a_number() {
     assert_eq!(folder.names(), ["s.yaml"]);
 }
 
-/// Under the product lattice rays may have no bits, so that path indices are no limit to them.
+/// Under the product lattice rays may have no bits, so path indices do not limit the number of rays.
 #[test]
 fn a_path_of_very_many_rays_is_refused() {
     let grey = ["lambertian: { albedo: [0.5, 0.5, 0.5] }".to_owned()];
@@ -156,7 +156,7 @@ fn a_path_of_very_many_rays_is_refused() {
     assert!(errors.contains("--> s.yaml:"), "{errors}");
 }
 
-/// Each depth has tables of its own, of functions of a coordinate; depths alike share them, and many are not stored.
+/// Each depth has tables of functions of a coordinate; equal depths share them, and at most 256 MB are stored.
 #[test]
 fn tables_of_many_materials_and_rays_fit_in_a_gigabyte() {
     let folder = Folder::new();
@@ -171,7 +171,7 @@ fn tables_of_many_materials_and_rays_fit_in_a_gigabyte() {
         .map(|k| format!("(1 + sin({k}*u))*(1 + cos({k}*v))"))
         .collect();
     let own = [bsdf(&format!("0.0001*({})", waves.join("+")))];
-    // No two depths have as many bits.
+    // No two depths have the same bits.
     let all: Vec<String> = (0..40)
         .map(|n| format!("{{ bits: [{}, {}] }}", 8 + n % 7, 9 + n / 7))
         .collect();
@@ -187,8 +187,8 @@ fn tables_of_many_materials_and_rays_fit_in_a_gigabyte() {
     }
 }
 
-/// Each BSDF of its own is checked at some ten thousand points, by up to 76 viewers; one that is there again is not
-/// checked again.
+/// The checker tests each different BSDF at some ten thousand points, for up to 76 viewers, and an equal one not
+/// again.
 #[test]
 fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     let folder = Folder::new();
@@ -198,7 +198,7 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     let (many, _) = used(&folder, 0, &["render", "many.yaml", "-q", "-o", "p.exr"]);
     println!("{:.2} ms for each", many.seconds / 2.0);
 
-    // As long as they may be.
+    // Values of the greatest length.
     let longest = |number: usize| {
         let term = |k: usize| format!("cos_a^2/(1+cos_o*{}.{number})", k + 1);
         let terms: Vec<String> = (0..150).map(term).collect();
@@ -210,7 +210,7 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     fs::write(folder.path("same.yaml"), scene(&same, 1, &rays(2, 2))).unwrap();
     let (same, _) = used(&folder, 0, &["render", "same.yaml", "-q", "-o", "p.exr"]);
     println!("{:.2} s for one of the longest", same.seconds);
-    // A hundred would take minutes, if each were checked.
+    // A hundred would take minutes if each were checked.
     assert!(same.seconds < 30.0, "{} s for one", same.seconds);
     let all: Vec<String> = (0..400).map(longest).collect();
     fs::write(folder.path("long.yaml"), scene(&all, 1, &rays(2, 2))).unwrap();
@@ -219,7 +219,7 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     assert!(errors.contains("minutes; the limit is 10"), "{errors}");
     assert!(long.seconds < 30.0, "{} s to refuse them", long.seconds);
 
-    // What may take minutes ends when it is told to.
+    // Checks that may take minutes end at an interrupt.
     fs::write(folder.path("some.yaml"), scene(&all[..60], 1, &rays(2, 2))).unwrap();
     for command in ["render", "verify"] {
         let child = folder.started(&[command, "some.yaml"]);
@@ -231,8 +231,8 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     }
 }
 
-/// A comparator of 30 bits has 2^30 thresholds: gates that tried each of them would take 256 times as long as with 22
-/// bits.
+/// A comparator of 30 bits has 2^30 thresholds: gates that tried each of them would take 256 times as long as
+/// with 22 bits.
 #[test]
 fn the_widest_comparator_costs_gates_no_more_tries() {
     let folder = Folder::new();
@@ -252,7 +252,7 @@ fn the_widest_comparator_costs_gates_no_more_tries() {
     let (gates, seconds) = counted("gates", 30);
     let (_, few) = counted("gates", 22);
     assert!(seconds < 8.0 * few, "{seconds} s, and {few} s with 22 bits");
-    // The same colours are counted as by arithmetic in fixed point.
+    // The counts equal those by arithmetic in fixed point.
     let (fixed, _) = counted("fixed", 30);
     assert!(gates == fixed);
 }

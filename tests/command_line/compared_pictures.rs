@@ -1,4 +1,4 @@
-//! `qrt diff` reads of a picture all that decides its colours, or says what it does not read.
+//! Tests that `qrt diff` reads everything in a picture that decides its colours, or reports what it does not read.
 
 use crate::common::command::Folder;
 use exr::meta::attribute::Chromaticities;
@@ -6,7 +6,7 @@ use png::{BitDepth, ColorType};
 use serde_json::Value;
 use std::fs;
 
-/// A chunk of a PNG file.
+/// Returns a chunk of a PNG file.
 fn chunk(kind: [u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [&kind[..], data].concat();
     let length = (data.len() as u32).to_be_bytes();
@@ -14,10 +14,10 @@ fn chunk(kind: [u8; 4], data: &[u8]) -> Vec<u8> {
     [&length[..], &body, &check].concat()
 }
 
-/// Bytes of the signature and of IHDR.
+/// Number of bytes of the signature and of IHDR.
 const HEAD: usize = 8 + 25;
 
-/// A PNG of one row with these chunks behind its IHDR.
+/// Returns a PNG of one row with `chunks` behind its IHDR.
 fn png(kind: ColorType, depth: BitDepth, row: &[u8], width: u32, chunks: &[Vec<u8>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, 1);
@@ -33,7 +33,7 @@ fn png(kind: ColorType, depth: BitDepth, row: &[u8], width: u32, chunks: &[Vec<u
     [bytes, chunks.concat(), rest].concat()
 }
 
-/// Two grey pixels of these levels.
+/// Returns a PNG of two grey pixels with the levels `levels`.
 fn grey(levels: [u8; 2], chunks: &[Vec<u8>]) -> Vec<u8> {
     png(ColorType::Grayscale, BitDepth::Eight, &levels, 2, chunks)
 }
@@ -67,7 +67,7 @@ fn points(transfer: u8) -> Vec<u8> {
     chunk(*b"cICP", &[1, transfer, 0, 1])
 }
 
-/// The mean of a picture's channels in linear light, as `qrt diff` has it.
+/// Returns the mean of a picture's channels in linear light, as `qrt diff` reports it.
 fn mean(folder: &Folder, name: &str) -> [f64; 3] {
     let told = folder.works(&["diff", name, name, "--json"]);
     let told: Value = serde_json::from_str(&told).unwrap();
@@ -82,7 +82,7 @@ fn levels_become_light_as_their_file_says() {
     for (chunks, expected) in [
         (vec![], srgb(level)),
         (vec![intent()], srgb(level)),
-        // 0.45455, of what was once written for sRGB, is 1/2.2 and no more.
+        // A gamma of 0.45455, which some files have for sRGB, is taken as 1/2.2 exactly.
         (vec![gamma(45455)], power(100_000.0 / 45455.0)),
         (vec![gamma(100_000)], level),
         (vec![gamma(50_000), primaries(64000)], power(2.0)),
@@ -147,7 +147,7 @@ fn colours_that_are_not_read_are_refused_by_name() {
             assert!(says.iter().all(|says| errors.contains(says)), "{errors}");
         }
     }
-    // Behind the pixels, and with a wrong check sum.
+    // A chunk behind the pixels, and one with a wrong checksum.
     let mut late = grey([1, 2], &[]);
     late.splice(late.len() - 12..late.len() - 12, gamma(100_000));
     fs::write(folder.path("a.png"), late).unwrap();
@@ -163,7 +163,7 @@ fn colours_that_are_not_read_are_refused_by_name() {
     assert!(errors.contains("CRC"), "{errors}");
 }
 
-/// Levels are fractions of the largest level of their depth.
+/// A level is a fraction of the largest level of its depth.
 #[test]
 fn every_depth_and_kind_of_png_is_read_to_its_last_bit() {
     let folder = Folder::new();
@@ -205,7 +205,7 @@ fn every_depth_and_kind_of_png_is_read_to_its_last_bit() {
         png(ColorType::Indexed, BitDepth::Two, &[0b0100_0000], 1, &[]),
         narrow,
     );
-    // Two pictures that differ in the last of 16 bits differ.
+    // The two pictures differ only in the last of 16 bits.
     for (name, last) in [("a.png", 0x34), ("b.png", 0x35)] {
         let bytes = png(
             ColorType::Grayscale,
@@ -271,7 +271,7 @@ fn transparency_of_any_kind_is_refused_where_it_shows() {
 #[derive(Clone, Copy, Default)]
 struct Told {
     chromaticities: Option<[f32; 8]>,
-    /// The data window's first pixel, and the display window.
+    /// The first pixel of the data window. `display` is the display window.
     origin: [i32; 2],
     display: Option<([i32; 2], [usize; 2])>,
 }
@@ -366,7 +366,7 @@ fn windows_of_openexr_that_differ_are_refused() {
     };
     let frame = |x, y| ([x, y], [8, 8]);
     exr_of(&folder, "a.exr", &RGB, told([3, 4], frame(0, 0)));
-    // The same place in a frame that is counted from elsewhere.
+    // The same place in a frame whose coordinates start elsewhere.
     exr_of(&folder, "b.exr", &RGB, told([-7, 4], frame(-10, 0)));
     folder.works(&["diff", "a.exr", "b.exr"]);
     for (other, says) in [

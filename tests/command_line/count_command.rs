@@ -1,4 +1,4 @@
-//! `qrt count` as scripts see it.
+//! Tests of `qrt count` from the outside.
 
 use std::process::{Command, Output};
 
@@ -56,7 +56,7 @@ fn all_outcomes_of_a_small_register_are_listed_and_sum_to_one() {
     }
 }
 
-/// Computed with 60 digits: K(y - T theta) + K(y + T theta).
+/// The expected values were computed with 60 digits: K(y - T theta) + K(y + T theta).
 #[test]
 fn asked_outcomes_of_the_largest_register_are_right() {
     let arguments = "--good 1000000007 --total 4611686018427387904 --phase-bits 40";

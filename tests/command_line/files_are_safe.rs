@@ -1,11 +1,11 @@
-//! What is written destroys nothing that was read, or written by another, and leaves nothing behind.
+//! Tests that writing destroys no input and no file of another process, and leaves nothing behind.
 
 use crate::common::command::Folder;
 use std::fs;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
 
-/// A lamp that is a mesh, whose material is a library's.
+/// A lamp that is a mesh, with a material from a library.
 const MESH: &str = "
 name: mesh
 camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
@@ -17,7 +17,7 @@ sampling: { path_bits: 4, depths: [{ bits: [4, 4] }] }
 const OBJ: &str = "mtllib lamp.mtl\nusemtl glow\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
 const MTL: &str = "newmtl glow\nKe 1 1 1\n";
 
-/// A folder with the mesh, and other names for its files.
+/// Creates a folder with the mesh, and other names for its files.
 fn folder() -> Folder {
     let folder = Folder::with("mesh.yaml", MESH);
     fs::create_dir(folder.path("meshes")).unwrap();
@@ -77,7 +77,7 @@ fn no_output_is_written_over_an_input_or_another_whatever_they_are_called() {
         assert_eq!(folder.read("meshes/lamp.obj"), OBJ.as_bytes(), "{command}");
         assert_eq!(folder.read("meshes/lamp.mtl"), MTL.as_bytes(), "{command}");
     }
-    // Another picture's checkpoint is no place for anything.
+    // No output may be another picture's checkpoint.
     for option in ["--counts", "--stats"] {
         let errors = folder.fails(2, &["render", "mesh.yaml", option, "other.png.qrt-partial"]);
         assert!(errors.contains("named as a checkpoint"), "{errors}");
@@ -130,7 +130,7 @@ fn renders_of_one_picture_at_a_time_leave_it_whole_and_nothing_else() {
         for child in running {
             let output = child.wait_with_output().unwrap();
             let errors = String::from_utf8(output.stderr).unwrap();
-            // Either all is well, or the other is at it.
+            // The command finishes, or reports that the other process writes the file.
             match output.status.code() {
                 Some(0) => finished += 1,
                 Some(1) => assert!(errors.contains("is being written by another"), "{errors}"),
@@ -143,7 +143,7 @@ fn renders_of_one_picture_at_a_time_leave_it_whole_and_nothing_else() {
     }
 }
 
-/// Finished tiles of another seed.
+/// Returns a checkpoint with finished tiles of another seed.
 fn interrupted(folder: &Folder) -> Vec<u8> {
     folder.fails(1, &["render", "box.yaml", "--counts", "/dev/full"]);
     folder.read("box.png.qrt-partial")
@@ -181,7 +181,7 @@ fn a_render_that_is_refused_costs_no_finished_work() {
 #[test]
 fn what_cannot_be_written_is_told_before_the_work() {
     let folder = Folder::with("box.yaml", BOX);
-    // A byte longer than any name.
+    // One byte longer than the longest name.
     let long = "x".repeat(256);
     for option in ["--stats", "--counts"] {
         let slow = ["--set", "sampling.path_bits=30"];
@@ -206,7 +206,7 @@ fn a_picture_survives_its_folder() {
     fs::remove_file(folder.path("out/p.png")).unwrap();
     let mut child = folder.started(&slow);
     let partial = folder.path("out/p.png.qrt-partial");
-    // The header and at least one tile.
+    // Wait for the header and at least one tile.
     while fs::metadata(&partial).map_or(0, |found| found.len()) < 2048 {
         assert!(child.try_wait().unwrap().is_none(), "finished too soon");
         std::thread::sleep(std::time::Duration::from_millis(1));
@@ -244,7 +244,7 @@ fn a_limit_on_the_size_of_files_is_told_and_not_died_of() {
         );
         errors
     };
-    // Too little for the checkpoint, and enough for that but not for the counts.
+    // The first limit is too small for the checkpoint, the second only for the counts.
     let errors = limited("1", "--set sampling.path_bits=11");
     assert!(errors.contains("too large"), "{errors}");
     let errors = limited("16", "--counts c.csv");
@@ -271,7 +271,7 @@ fn what_a_scene_reads_is_kept_whatever_its_name_ends_in() {
     let errors = folder.fails(2, &["render", "box.yaml", "-o", "./mesh.exr"]);
     assert!(errors.contains("mesh.exr"), "{errors}");
     assert_eq!(folder.read("mesh.exr"), mesh.as_bytes());
-    // A folder of plots in which the scene lies, or its mesh.
+    // A folder of plots in which the scene or its mesh lies.
     fs::write(folder.path("out/mesh.svg"), mesh).unwrap();
     fs::write(folder.path("out/scene.svg"), meshes("mesh.svg")).unwrap();
     fs::write(folder.path("out/scene.yaml"), meshes("mesh.svg")).unwrap();
@@ -284,8 +284,8 @@ fn what_a_scene_reads_is_kept_whatever_its_name_ends_in() {
     assert!(!folder.path("out/trade.csv").exists());
 }
 
-/// A shell that leads standard output into a file has that file open: others write to it too, before and
-/// after.
+/// A shell that redirects standard output to a file keeps that file open: other commands write to it too,
+/// before and after.
 #[cfg(unix)]
 #[test]
 fn what_standard_output_is_led_into_is_added_to_and_not_replaced() {

@@ -1,5 +1,5 @@
-//! Scenes that want to do harm, in a gigabyte: each is refused or becomes a picture, and ends neither the process
-//! nor the wait for it.
+//! Tests of hostile scenes in a gigabyte of memory: each is refused or becomes a picture; none crashes the
+//! process or runs without end.
 #![cfg(unix)]
 
 use crate::common::command::Folder;
@@ -20,7 +20,7 @@ geometry:
 sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }] }
 ";
 
-/// What numbers and words are put in places of others.
+/// Numbers and words that replace others.
 const VALUES: [&str; 32] = [
     "0",
     "-1",
@@ -56,14 +56,14 @@ const VALUES: [&str; 32] = [
     "!!binary 1",
 ];
 
-/// A scene and its mesh.
+/// Returns a scene and its mesh.
 fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
     let mut mesh = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
     let mut text = SCENE.to_owned();
     for _ in 0..=numbers.below(3) {
         let large = 1 << numbers.below(20);
         match numbers.below(12) {
-            // Much of something.
+            // A large number of primitives.
             0 => {
                 text = text.replace(
                     "geometry:\n",
@@ -75,7 +75,7 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
             }
             1 => text.extend(["more: ", &"[".repeat(large), &"]".repeat(large)]),
             2 => text.extend(["more: [", &"&a [*a, *a, 1], ".repeat(large / 4), "]"]),
-            // Once: twice would be its square.
+            // Replace one occurrence only: two would multiply in the square.
             3 => text = text.replacen("strange", &"strange".repeat(large), 1),
             4 => mesh += &"f 1 2 3\nf 2 3 4\n".repeat(large),
             5 => mesh.extend(["f", &" 1 2 3".repeat(large), "\n"]),
@@ -84,7 +84,7 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
                 let (material, libraries) = ("x".repeat(large), "any.obj ".repeat(large / 8));
                 mesh.extend(["usemtl ", &material, "\nmtllib ", &libraries, "\n"]);
             }
-            // A film that no gigabyte holds, and others.
+            // Films of different sizes, one of them too large for a gigabyte.
             8 => {
                 let side = [1, 64, 65_536, 4_294_967_295_u64][numbers.below(4)];
                 text = text.replace(
@@ -99,13 +99,13 @@ fn hostile(numbers: &mut Numbers) -> (Vec<u8>, Vec<u8>) {
                 let bits = numbers.below(14);
                 text = text.replace("path_bits: 4", &format!("path_bits: {bits}"));
             }
-            // A value in another's place.
+            // Replace a digit by another value.
             _ => {
                 let words: Vec<(usize, &str)> =
                     text.match_indices(|c: char| c.is_ascii_digit()).collect();
                 let (at, _) = words[numbers.below(words.len())];
                 let value = VALUES[numbers.below(VALUES.len())];
-                // A film or paths of any size take any time, which is no fault.
+                // Films and paths of any size may take any time, which is no fault, so they stay.
                 let line = text[..at].rfind('\n').map_or(0, |line| line + 1);
                 if !text[line..].starts_with("film") && !text[line..].starts_with("sampling") {
                     text.replace_range(at..=at, value);

@@ -1,4 +1,4 @@
-//! `qrt inspect` as people and scripts see it.
+//! Tests of `qrt inspect` from the outside.
 
 use crate::common::command::Folder;
 use serde_json::Value;
@@ -93,7 +93,7 @@ fn parts_stages_blocks_and_roles_add_up() {
         assert_eq!(blocks[0]["path"], "oracle");
         assert_eq!(gates(&blocks[0]["total"]), total);
         for block in &blocks[1..] {
-            // Paths are distinct, and those within a block begin with its own.
+            // Paths are distinct, and those within a block begin with the block's own.
             let path = block["path"].as_str().unwrap();
             let inside = |other: &&Value| {
                 let other = other["path"].as_str().unwrap();
@@ -127,7 +127,7 @@ fn kept_registers_stand_one_above_the_other() {
         offset += number(&register["width"]);
     }
     assert_eq!(number(&answer["qubits"]["layout"]), offset);
-    // At the peak all of them are there, and the ancillas of one operation.
+    // At the peak all registers exist, with the ancillas of one operation.
     let ancillas = number(&answer["qubits"]["by_role"]["ancilla"]);
     assert!(number(&answer["qubits"]["peak"]) <= offset + ancillas);
     let first = &list(&answer, "registers")[0];
@@ -185,7 +185,7 @@ fn passes_lead_from_nothing_done_to_the_circuit() {
 
 #[test]
 fn the_most_expensive_channel_is_shown_unless_one_is_asked_for() {
-    // Only red light is reflected: the other channels need no products.
+    // The floor reflects only red light: the other channels need no products.
     let set = "materials.floor.lambertian.albedo=[0.7, 1, 0]";
     let scene = ["floor.yaml", "--set", set];
     let of = |channel| json(&folder(), &[&scene[..], &["--channel", channel]].concat());
@@ -227,7 +227,7 @@ fn tables_fit_and_name_the_boxes_of_the_paper() {
             ] {
                 assert!(text.contains(name), "{scene}: {name}");
             }
-            // Where only a lamp's front can be met there is nothing to choose.
+            // Where only a lamp's front can be met, there is no material to choose.
             let chooses = scene.starts_with("cornell");
             assert!(text.contains("shade") || !chooses, "{scene}");
         }
@@ -274,21 +274,21 @@ fn planes_are_summed_unless_each_is_asked_for() {
         .lines()
         .find(|line| line.contains(" planes "))
         .unwrap();
-    // The lamp's, and those of the room, of which floor and ceiling are one: they face each other.
+    // The planes of the lamp and of the room, of which floor and ceiling share one: they face each other.
     assert!(first.contains(" 6 planes "), "{first}");
     assert!(summed.contains(" 2 bodies "), "{summed}");
-    // Of the last ray only what may hide a lamp counts: no outer plane does.
+    // For the last ray, only planes that may hide a lamp count: no outer plane does.
     assert!(planes(&folder().works(&["inspect", &scene, "-v"])) >= 16 + 16 + 11);
 }
 
-/// What `--logical-counts` writes of the floor's red channel.
+/// Returns the output of `--logical-counts` for the floor's red channel.
 fn logical_counts(folder: &Folder, sets: &[&str]) -> Value {
     let file = ["--channel", "r", "--logical-counts", "counts.json"];
     json(folder, &[&["floor.yaml"][..], &file, sets].concat());
     serde_json::from_slice(&folder.read("counts.json")).unwrap()
 }
 
-/// How Q# calls what is counted; other keys it drops without a word.
+/// Q#'s names of the counts; Q# ignores other keys without a message.
 const QSHARP: [&str; 7] = [
     "numQubits",
     "cczCount",
@@ -338,15 +338,15 @@ fn logical_counts_are_those_of_the_gates_that_export_writes() {
             );
             assert_eq!(whole["qubits"], run["numQubits"]);
             assert_eq!(run["measurementCount"], 4 * 3);
-            // Of two quarter turns and an eighth: an eighth is three T gates on each side of a CNOT,
-            // and a sixteenth three rotations. The sine window rotates each bit twice.
+            // Two of the angles are quarter turns, one an eighth: an eighth takes three T gates on each side of a
+            // CNOT, and a sixteenth three rotations. The sine window rotates each bit twice.
             let window = if estimator == "sine" { 2 * 3 } else { 0 };
             assert_eq!(run["tCount"], 4 * 2 * 3);
             assert_eq!(run["rotationCount"], 4 * (3 + window));
         } else {
             let iterate = number(&export("grover")["gates"]["ccx"]);
             assert_eq!(run["cczCount"], 4 * 7 * iterate);
-            // Path and comparator, after each query.
+            // The path and the comparator are measured after each query.
             assert_eq!(run["measurementCount"], 4 * 7 * (6 + 5));
             assert_eq!([&run["rotationCount"], &run["tCount"]], [0, 0]);
         }
@@ -369,7 +369,7 @@ fn logical_counts_are_those_of_the_gates_that_export_writes() {
 
 #[test]
 fn logical_counts_of_an_asked_accuracy_take_the_queries_that_are_planned() {
-    // Without what a plan chooses.
+    // Remove the parameters that a plan chooses.
     let scene = SCENE.replace("path_bits: 6, ", "");
     let (scene, _) = scene.split_once("precision").unwrap();
     let folder = Folder::with("floor.yaml", scene);
@@ -382,7 +382,7 @@ fn logical_counts_of_an_asked_accuracy_take_the_queries_that_are_planned() {
     assert_eq!(number(&queries["channel"]), planned[0].ceil() as u64);
     let pixel: f64 = planned.iter().map(|queries| queries.ceil()).sum();
     assert_eq!(number(&queries["pixel"]), pixel as u64);
-    // Channels stop by themselves, well before they have used what they may.
+    // Channels stop by themselves, well before they have used all that they may.
     let most = ((1_u64 << number(&plan["phase_bits"])) - 1) * number(&plan["repetitions"]);
     assert!(
         2.0 * planned[0] < most as f64,
@@ -423,7 +423,7 @@ fn a_budget_beyond_which_a_circuit_goes_is_an_error_at_its_place() {
     let folder = Folder::with("floor.yaml", &text);
     let output = folder.qrt(&["inspect", "floor.yaml", "--json"]);
     assert_eq!(output.status.code(), Some(2));
-    // The figures that are needed to do something about it.
+    // The figures that the user needs to change the scene.
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     let errors = String::from_utf8(output.stderr).unwrap();
     let grouped = |value| qrt::core::inspect::grouped(number(value));
@@ -444,7 +444,7 @@ fn a_budget_beyond_which_a_circuit_goes_is_an_error_at_its_place() {
     ] {
         assert!(errors.contains(expected), "{expected}:\n{errors}");
     }
-    // One of them, from the command line.
+    // A single figure, given on the command line.
     let sets = ["--set", "budget={ qubits: 100000, toffoli: 8 }"];
     let errors = folder.fails(2, &["inspect", "floor.yaml", sets[0], sets[1]]);
     assert!(errors.contains("--> <--set>:1:"), "{errors}");
@@ -495,7 +495,7 @@ fn files_that_cannot_be_written_are_known_before_the_work() {
     assert_eq!(folder.names(), ["floor.yaml", "map.svg"]);
 }
 
-/// Each by itself: what is listed is what a scene gets by that name.
+/// Each strategy of the list, given by its name, has the listed figures.
 #[test]
 fn every_listed_strategy_is_one_that_a_scene_may_name() {
     let folder = folder();
@@ -645,7 +645,7 @@ fn drawings_are_xml_and_show_every_register_and_box() {
 #[test]
 fn drawings_of_large_circuits_stay_small() {
     let folder = Folder::new();
-    // Many qubits; many registers that come and go.
+    // A circuit of many qubits, and one with many short-lived registers.
     for (scene, how) in [("velvet", "keep"), ("cornell-ggx", "scoped")] {
         let scene = example(scene);
         let set = format!("circuit.uncompute={how}");

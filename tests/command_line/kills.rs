@@ -1,6 +1,6 @@
-//! A render that is killed at any moment, and again, goes on to the same bytes. What it has lost is at most two
-//! seconds of work: of what its own bar has told of, all but what it did in its last two seconds of the processors'
-//! time is in the checkpoint.
+//! Tests that a render that is killed at any moment, and again, resumes to the same bytes. It loses at most two
+//! seconds of work: of the progress that its bar has shown, all but the last two seconds of processor time is in
+//! the checkpoint.
 #![cfg(target_os = "linux")]
 
 use crate::common::command::{Folder, worked};
@@ -18,21 +18,21 @@ use std::time::{Duration, Instant};
 const THREADS: u32 = 2;
 const COMMAND: [&str; 6] = ["render", "s.yaml", "-o", "p.exr", "--threads=2", "--resume"];
 
-/// The room with the lamp, with this film and so many paths a pixel.
+/// Returns the room with the lamp, with this film and `2^path_bits` paths a pixel.
 fn scene(film: &str, path_bits: u32) -> String {
     let room = include_str!("../scenes/box.yaml");
     room.replace("film: { width: 13, height: 11 }", &format!("film: {film}"))
         .replace("path_bits: 10", &format!("path_bits: {path_bits}"))
 }
 
-/// A terminal that a command's bar is drawn on, and what is read of it: after how many seconds of the processors'
-/// time how many paths were told of.
+/// A terminal with the bar of a command, and the readings of it: seconds of processor time, and the number of
+/// paths that the bar showed then.
 struct Watched {
     child: Child,
     bar: JoinHandle<Vec<(f64, u64)>>,
 }
 
-/// The last number of paths that is told of in a bar: `1,234 of 5,678 paths`.
+/// Returns the last number of paths in a bar: `1,234 of 5,678 paths`.
 fn told(text: &str) -> Option<u64> {
     let (before, _) = text.rsplit_once(" paths")?;
     let (before, _) = before.rsplit_once(" of ")?;
@@ -63,7 +63,7 @@ impl Watched {
             .stdout(Stdio::null())
             .stderr(Stdio::from(own));
         let child = command.spawn().unwrap();
-        // Its end of the terminal is closed here, and reading ends when it is.
+        // Close this process's copy of the terminal's far end, so that reading ends with the child.
         drop(command);
         let (process, mut terminal) = (child.id(), File::from(terminal));
         let bar = std::thread::spawn(move || {
@@ -75,7 +75,7 @@ impl Watched {
                 if let (Some(now), Some(paths)) = (now, told(&text)) {
                     all.push((now, paths));
                 }
-                // A bar may come in two pieces.
+                // A bar may come in two pieces, so the last line is kept.
                 let line = text.rfind(['\r', '\n']).unwrap_or(0);
                 text.drain(..line);
             }
@@ -84,7 +84,7 @@ impl Watched {
         Self { child, bar }
     }
 
-    /// Kills it after this time, and tells when that was, and what its bar has told of; none if it was through.
+    /// Kills it after `after`; returns the time of that and the readings of its bar, or `None` if it had finished.
     fn killed(mut self, after: Duration) -> Option<(f64, Vec<(f64, u64)>)> {
         std::thread::sleep(after);
         let now = worked(self.child.id());
@@ -99,7 +99,7 @@ impl Watched {
     }
 }
 
-/// Paths that a checkpoint has.
+/// Returns the number of paths in a checkpoint.
 fn kept(folder: &Folder, scene: &ValidScene) -> u64 {
     let (cancel, found) = (AtomicBool::new(true), AtomicU64::new(0));
     let progress = |progress: Progress| {
@@ -107,7 +107,7 @@ fn kept(folder: &Folder, scene: &ValidScene) -> u64 {
             found.store(resumed, Ordering::SeqCst);
         }
     };
-    // Of a copy: what is torn is cut off.
+    // Read a copy, because opening cuts off a torn record.
     let copy = folder.path("copy");
     fs::copy(folder.path("p.exr.qrt-partial"), &copy).unwrap();
     let options = Options {
@@ -120,14 +120,14 @@ fn kept(folder: &Folder, scene: &ValidScene) -> u64 {
         },
         ..Options::default()
     };
-    // All may be there.
+    // The checkpoint may be complete, so both results are fine.
     let _ = render(scene, &options);
     let _ = fs::remove_file(copy);
     found.into_inner()
 }
 
-/// Kills so many renders, each as many times in a row as `again` says, and goes on with each to its end. The
-/// greatest loss, in seconds of all threads.
+/// Kills `kills` renders, each `again` times in a row, and resumes each to its end. Returns the greatest loss, in
+/// seconds of all threads.
 fn survive(film: &str, path_bits: u32, kills: u32, again: u32) -> f64 {
     let text = scene(film, path_bits);
     let scene = written(&text, &[]);
@@ -152,7 +152,7 @@ fn survive(film: &str, path_bits: u32, kills: u32, again: u32) -> f64 {
             let there = folder.path("p.exr.qrt-partial").exists();
             let kept = if there { kept(&folder, &scene) } else { 0 };
             with_work += u32::from(kept > 0);
-            // When there was first more than what is kept.
+            // The time at which the bar first showed more than the checkpoint has.
             let lost = bar.iter().find(|(_, paths)| *paths > kept);
             let lost = lost.map_or(0.0, |(then, _)| (end - then) / f64::from(THREADS));
             assert!(lost <= 2.0, "{lost} s of work lost, with {kept} paths kept");
@@ -176,9 +176,9 @@ fn twenty_kills_lose_two_seconds_of_work_at_most_and_no_byte() {
 #[test]
 #[ignore = "takes minutes: what is lost shows in renders that take longer than is lost"]
 fn two_hundred_kills_lose_two_seconds_of_work_at_most_and_no_byte() {
-    // Kept at the ends of tiles, and within pixels.
+    // Checkpoints at the ends of tiles, and within pixels.
     survive("{ width: 32, height: 32 }", 11, 176, 1);
     let lost = survive("{ width: 2, height: 1 }", 24, 24, 4);
-    // Some was, or nothing would have been measured.
+    // Some work was lost, or the test would have measured nothing.
     assert!(lost > 0.02, "{lost} s");
 }

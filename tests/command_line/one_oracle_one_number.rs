@@ -1,11 +1,11 @@
-//! Commands report the same figures for the same oracle, and say which oracle it is.
+//! Tests that commands report the same figures for the same oracle, and name the oracle.
 
 use crate::common::command::Folder;
 use serde_json::Value;
 
 const CHANNELS: [&str; 3] = ["r", "g", "b"];
 
-/// Few paths and pixels, so that all can be verified: the oracles do not depend on the film's size.
+/// Overrides for few paths and pixels, so that all can be verified: the oracles do not depend on the film's size.
 const FEW: [&str; 4] = [
     "--set",
     "sampling.path_bits=2",
@@ -27,12 +27,12 @@ fn number(value: &Value) -> u64 {
     number.unwrap_or_else(|| panic!("{value} is no whole number"))
 }
 
-/// Qubits and Toffolis of the oracle that `qrt inspect` shows.
+/// Returns the qubits and Toffolis of the oracle that `qrt inspect` shows.
 fn inspected(answer: &Value) -> [u64; 2] {
     [&answer["qubits"]["peak"], &answer["gates"]["toffoli"]].map(number)
 }
 
-/// Qubits and Toffolis of an oracle in a list of `qrt inspect` or `qrt verify`.
+/// Returns the qubits and Toffolis of an oracle in a list of `qrt inspect` or `qrt verify`.
 fn listed(answer: &Value, channel: &Value, class: &Value) -> [u64; 2] {
     let oracles = answer["oracles"].as_array().unwrap().iter();
     let mut found = oracles.filter(|one| one["channel"] == *channel && one["class"] == *class);
@@ -41,12 +41,12 @@ fn listed(answer: &Value, channel: &Value, class: &Value) -> [u64; 2] {
     [&one["qubits"], &one["toffoli"]].map(number)
 }
 
-/// Checks every command's figures for the oracles of these pixels of a scene. Returns the costs of
-/// the first channel in each pixel.
+/// Checks every command's figures for the oracles of `pixels` of a scene. Returns the costs of the first
+/// channel in each pixel.
 fn check(folder: &Folder, scene: &str, pixels: &[&str]) -> Vec<[u64; 2]> {
     let all = json(folder, &["inspect", scene]);
     let verified = json(folder, &["verify", scene, "--pixels", "64"]);
-    // Without a pixel, it is the most expensive of the list.
+    // Without a pixel, the command shows the most expensive oracle of the list.
     let own = listed(&all, &all["channel"], &all["class"]);
     assert_eq!(own, inspected(&all), "{scene}");
     let costs = all["oracles"].as_array().unwrap().iter();
@@ -114,7 +114,7 @@ fn every_command_prices_the_new_scene_alike() {
     let folder = Folder::new();
     folder.works(&["new", "room"]);
     check(&folder, "room.yaml", &["5,6"]);
-    // The lamp is above the picture, so that no pixel sees it.
+    // The lamp is above the picture, so no pixel sees it.
     let answer = json(&folder, &["inspect", "room.yaml"]);
     assert_eq!(answer["class"], "all");
 }
@@ -227,7 +227,7 @@ fn a_seed_changes_the_gates_of_a_pixel_as_it_changes_its_circuit() {
     assert_ne!(gates[0]["x"], gates[1]["x"]);
 }
 
-/// README and the crate's page name the figures of the box whose picture they show.
+/// The README and the crate's page name the figures of the box whose picture they show.
 #[test]
 fn the_first_page_has_the_figures_of_the_box() {
     let text = Folder::new().works(&["inspect", &example("lit-box"), "--json"]);

@@ -1,4 +1,4 @@
-//! What other renderers and viewers read and write: `qrt export --format mitsuba`, layers of an .exr,
+//! Tests of files for other renderers and viewers: `qrt export --format mitsuba`, layers of an .exr,
 //! `qrt diff`.
 
 use crate::common::command::Folder;
@@ -10,8 +10,8 @@ use std::path::Path;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
 
-/// Three walls across the view: the left half a matte one at distance 3, the right half a tilted
-/// mirror, and nothing in the upper half.
+/// Walls across the lower half of the view: on the left a matte one at distance 3, on the right a tilted
+/// mirror. The upper half is empty.
 const WALLS: &str = "
 name: walls & <more>
 camera: { orthographic: { eye: [0, 0, 4], target: [0, 0, 0], height: 2 } }
@@ -67,7 +67,7 @@ fn layers_tell_of_first_hits_where_they_are() {
         "queries.Y",
     ];
     assert_eq!(names, asked);
-    // The upper half sees nothing. Pixels' middles are at x = -1.5, -0.5, 0.5, 1.5.
+    // The upper half meets no wall. Pixels' middles are at x = -1.5, -0.5, 0.5, 1.5.
     let half = 0.5f32.sqrt();
     for (name, lower) in [
         ("depth.Z", [3.0, 3.0, 3.5, 2.5]),
@@ -84,7 +84,7 @@ fn layers_tell_of_first_hits_where_they_are() {
             assert!((found - asked).abs() < 1e-6, "{name}: {found} {asked}");
         }
     }
-    // A crop is cut out of the same, and a file without layers has the same colours.
+    // A crop has the same values, and a file without layers has the same colours.
     folder.works(&[
         "render",
         "walls.yaml",
@@ -137,8 +137,8 @@ fn layers_tell_of_counting_what_stats_and_intervals_do() {
     let queries: f64 = found["queries.Y"].iter().map(|&n| f64::from(n)).sum();
     let stats: Value = serde_json::from_slice(&folder.read("b.json")).unwrap();
     assert_eq!(queries, stats["oracle_queries"].as_f64().unwrap());
-    // An interval that lies about its estimate holds the exact value within its width, with its
-    // confidence, 95 %, and the 143 pixels' comparators add little to that.
+    // An interval that contains the estimate contains the exact value within its width with its confidence,
+    // 95 %, and the comparators of the 143 pixels add little to that.
     for [value, width] in [
         ["R", "interval.R"],
         ["G", "interval.G"],
@@ -151,7 +151,7 @@ fn layers_tell_of_counting_what_stats_and_intervals_do() {
         assert!(inside >= 130, "{value}: {inside} of 143");
         assert!(found[width].iter().any(|&width| width > 0.0), "{width}");
     }
-    // Of one run, the luminance's alone.
+    // One run has the luminance's interval alone.
     folder.works(&[&counted[..], &["-o", "one.exr", "--colour", "one-run"]].concat());
     let one = channels(&folder.path("one.exr"));
     assert!(one.contains_key("interval.Y") && !one.contains_key("interval.R"));
@@ -162,7 +162,7 @@ fn layers_tell_of_counting_what_stats_and_intervals_do() {
     );
 }
 
-/// Vertices and triangles of a binary PLY file.
+/// Returns the vertices and triangles of a binary PLY file.
 fn ply(bytes: &[u8]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let end = b"end_header\n";
     let at = bytes
@@ -303,7 +303,7 @@ fn pictures_are_compared_and_their_errors_shown() {
         [0.0, 0.0, 0.0]
     );
     let found = diff(&["exact.exr", "counted.exr", "-o", "error.png"]);
-    // By the values themselves.
+    // Compute the expected values from the pixels.
     let [exact, counted] = ["exact.exr", "counted.exr"].map(|name| channels(&folder.path(name)));
     let mut squares = [0.0f64; 2];
     for (name, reference) in &exact {

@@ -1,4 +1,4 @@
-//! `qrt verify` and `qrt trade` in parts: what parts find together is what one process finds.
+//! Tests of `qrt verify` and `qrt trade` in parts: together, parts give the result of one process.
 
 use super::trade_command::LIT;
 use crate::common::command::Folder;
@@ -9,7 +9,7 @@ fn folder() -> Folder {
     Folder::with("lit.yaml", LIT)
 }
 
-/// The answer of a check, also in a file of this name.
+/// Returns the answer of a check, and writes it to the file `name`.
 fn verified(folder: &Folder, name: &str, arguments: &[&str]) -> Value {
     let said = folder.works(&[&["verify", "lit.yaml", "--json"], arguments].concat());
     fs::write(folder.path(name), &said).unwrap();
@@ -134,7 +134,7 @@ fn portions_that_make_no_check_are_named() {
     assert!(folder.fails(2, &both).contains("cannot be used with"));
 }
 
-/// What one portion found wrong is wrong with the whole.
+/// A fault that one portion found is a fault of the whole.
 #[test]
 fn a_portion_that_does_not_hold_decides() {
     let folder = folder();
@@ -189,7 +189,7 @@ fn trade(folder: &Folder, out: &str, more: &[&str]) -> String {
     folder.works(&[&words[..], more].concat())
 }
 
-/// A table's lines without their seconds and sums.
+/// Returns a table's lines without their seconds and checksums.
 fn timeless(folder: &Folder, out: &str) -> Vec<String> {
     let text = String::from_utf8(folder.read(&format!("{out}/trade.csv"))).unwrap();
     let lines = text.lines().skip(1);
@@ -215,7 +215,7 @@ fn portions_of_a_table_make_the_table_and_what_is_lost_is_measured_again() {
     trade(&folder, "merged", &["--parts", "part2", "part0", "part1"]);
     assert_eq!(timeless(&folder, "merged"), timeless(&folder, "whole"));
     assert!(folder.path("merged/index.html").exists());
-    // Without one of them, and with one of them twice.
+    // One of the parts is missing, and another is there twice.
     let words = [
         "trade", "lit.yaml", "--quick", "--pixels", "4", "-o", "again",
     ];
@@ -229,7 +229,7 @@ fn portions_of_a_table_make_the_table_and_what_is_lost_is_measured_again() {
     assert_eq!(timeless(&folder, "again"), timeless(&folder, "whole"));
 }
 
-/// CRC-32 by its definition: a remainder of polynomials.
+/// Computes CRC-32 by its definition: a remainder of polynomials.
 fn crc32(bytes: &[u8]) -> u32 {
     let shift = |sum: u32| (sum >> 1) ^ (0xedb8_8320 * (sum & 1));
     !bytes.iter().fold(!0, |sum, &byte| {
@@ -243,7 +243,7 @@ fn parts_of_a_table_that_disagree_are_refused() {
     for out in ["one", "other"] {
         trade(&folder, out, &["-q", "--tile", "0/9"]);
     }
-    // Measured twice, in other times: the same.
+    // The same row may be measured twice, with different times.
     trade(&folder, "both", &["-q", "--tile", "0/9"]);
     let table = folder.path("other/trade.csv");
     let text = fs::read_to_string(&table).unwrap();

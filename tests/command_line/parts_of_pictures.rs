@@ -1,4 +1,4 @@
-//! `qrt render --tile` and `qrt merge`: a picture in parts is the picture, or there is none.
+//! Tests of `qrt render --tile` and `qrt merge`: the parts give the picture of one render, or an error.
 
 use crate::common::command::Folder;
 use serde_json::Value;
@@ -6,22 +6,22 @@ use std::fs;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
 
-/// A box whose lamp is sampled: pixels that see it have another scale than the others.
+/// Returns a box whose lamp is sampled: pixels that see it have another scale than the others.
 fn aiming() -> String {
     BOX.replace("{ bits: [8, 8] }]", "{ bits: [8, 8], light: [4, 4] }]")
 }
 
-/// The box without the parameters that an accuracy replaces.
+/// Returns the box without the parameters that an accuracy replaces.
 fn accurate() -> String {
     let text = BOX.replace("  path_bits: 10\n", "");
     let text = text.lines().filter(|line| !line.starts_with("counting"));
     let text = text.collect::<Vec<_>>().join("\n");
-    // Each part is planned for by itself, which takes as long as the film is large.
+    // Each part plans by itself, for a time that grows with the film.
     let text = text.replace("width: 13, height: 11", "width: 5, height: 4");
     format!("{text}\naccuracy: {{ error: 0.3, confidence: 0.9 }}\n")
 }
 
-/// Renders all parts, each with another number of threads; their names in a shuffled order.
+/// Renders all parts, each with another number of threads; returns their names in a shuffled order.
 fn parts(folder: &Folder, count: usize, options: &[&str]) -> Vec<String> {
     let names: Vec<String> = (0..count).map(|index| format!("part.{index}")).collect();
     for (index, name) in names.iter().enumerate() {
@@ -38,7 +38,7 @@ fn parts(folder: &Folder, count: usize, options: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// What the statistics tell but for times.
+/// Returns the statistics without times.
 fn timeless(folder: &Folder, name: &str) -> Value {
     let mut stats: Value = serde_json::from_slice(&folder.read(name)).unwrap();
     for key in [
@@ -319,7 +319,7 @@ fn a_merge_writes_over_no_part() {
     );
 }
 
-/// An interrupted part is no part; `--resume` makes one of it.
+/// An interrupted part is not complete; `--resume` completes it.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_part_goes_on() {
@@ -342,7 +342,7 @@ fn an_interrupted_part_goes_on() {
     let errors = folder.fails(1, &["merge", "part.0", "part.1.qrt-partial", "-o", "p.exr"]);
     let expected = "`part.1.qrt-partial`, part 1/2, is not whole";
     assert!(errors.contains(expected), "{errors}");
-    // Another part does not go on from it, nor does the whole picture.
+    // Neither another part nor the whole picture resumes from it.
     let errors = folder.fails(
         2,
         &[&tile("0/2")[..], &["part.1", "--resume"], &slow].concat(),

@@ -1,11 +1,11 @@
-//! `qrt render --model fixed|gates` as scripts see it.
+//! Tests of `qrt render --model fixed|gates` from the outside.
 
 use crate::common::command::Folder;
 use serde_json::Value;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
 
-/// Small enough for every gate of every path in a second or two.
+/// Overrides for a scene so small that every gate of every path takes a second or two.
 const SMALL: [&str; 6] = [
     "--set",
     "sampling.path_bits=6",
@@ -56,7 +56,7 @@ fn both_machines_make_one_picture_near_the_real_one() {
     for ((value, good, total, scale), (close, none, _, _)) in fixed.into_iter().zip(real) {
         let good = good.unwrap();
         assert_eq!(value, scale * (good as f64 / total as f64));
-        // Half a step of the comparator, and a path or two that meet something else.
+        // The tolerance is half a step of the comparator, and a path or two with other hits.
         assert!((value - close).abs() <= scale * (0.5 / 256.0 + 1.0 / 64.0));
         assert_eq!((none, total), (None, 64 << 8));
     }
@@ -83,7 +83,7 @@ fn threads_tiles_and_interruptions_change_no_byte() {
     assert_eq!(all, render(&folder, "gates", &["--resume"]));
 }
 
-/// Column and row of a PNG's pixel, and its 8-bit sRGB.
+/// Returns the width and height of a PNG, and its 8-bit sRGB.
 fn decoded(bytes: Vec<u8>) -> ([u32; 2], Vec<u8>) {
     let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     let mut reader = decoder.read_info().unwrap();
@@ -94,7 +94,7 @@ fn decoded(bytes: Vec<u8>) -> ([u32; 2], Vec<u8>) {
     ([info.width, info.height], pixels)
 }
 
-/// The README's pictures are of 256 x 256 pixels and neither dark nor bright, and the first is what the gates make.
+/// The README's pictures have 256 x 256 pixels, are neither dark nor bright, and the first is that of the gates.
 #[test]
 fn the_gallery_is_as_the_readme_says() {
     let gallery = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");

@@ -1,4 +1,4 @@
-//! `qrt playground`: what it serves, and to whom.
+//! Tests of `qrt playground`: its responses, and the requests that it refuses.
 
 use crate::common::command::Folder;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
@@ -15,7 +15,7 @@ geometry: [{ mesh: { obj: part.obj, material: lamp } }]
 sampling: { path_bits: 4 }
 ";
 
-/// The command while it serves.
+/// The running command.
 struct Served {
     child: Child,
     port: u16,
@@ -47,7 +47,7 @@ impl Served {
 
     fn send(&self, bytes: &[u8]) -> Response {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        // It may answer, and close, before all is sent.
+        // The server may answer, and close, before all is sent.
         let _ = stream.write_all(bytes);
         let mut response = Vec::new();
         let _ = stream.read_to_end(&mut response);
@@ -70,7 +70,7 @@ impl Served {
         self.send(request.as_bytes())
     }
 
-    /// The index of an answer, and its numbers.
+    /// Returns the index of an answer, and its numbers.
     fn call(&self, session: &str, name: &str, numbers: &str, text: &str) -> (String, Vec<f64>) {
         let port = self.port;
         let own = format!("Host: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\n");
@@ -98,7 +98,7 @@ fn a_scene_is_served_with_its_files_and_answered() {
     let (status, page) = served.get("/");
     let page = String::from_utf8(page).unwrap();
     assert_eq!(status, 200);
-    // All that the page names, and all that these name.
+    // Follow all names in the page, and all names in those files.
     let mut waiting: Vec<String> = vec![page];
     let mut seen = Vec::new();
     while let Some(text) = waiting.pop() {
@@ -174,7 +174,7 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     let served = Served::new(&folder, &["scene.yaml"]);
     let port = served.port;
     let body = "a\ncheck\n\nname: 7";
-    // A name of another site that leads here, and a page of another site.
+    // A name of another site that resolves to this machine, and a page of another site.
     for headers in [
         "Host: example.org\r\n".to_owned(),
         format!("Host: example.org:{port}\r\n"),
@@ -218,7 +218,7 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     ] {
         assert_eq!(served.get(path).0, 404, "{path}");
     }
-    // Sessions are forgotten, the oldest first.
+    // The oldest session is forgotten first.
     served.call("first", "open", "0 0 0 1", SCENE);
     for number in 0..64 {
         served.call(&number.to_string(), "examples", "", "");
@@ -229,7 +229,7 @@ fn nobody_else_is_answered_and_nothing_breaks_it() {
     assert!(index.contains("no picture is open"), "{index}");
 }
 
-/// Skipped where port 80 is taken or not allowed.
+/// The test is skipped if port 80 is taken or not allowed.
 #[test]
 fn at_port_80_the_printed_address_is_answered() {
     if std::net::TcpListener::bind(("127.0.0.1", 80)).is_err() {

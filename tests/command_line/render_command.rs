@@ -1,4 +1,4 @@
-//! `qrt render` as scripts see it.
+//! Tests of `qrt render` from the outside.
 
 use crate::common::command::Folder;
 use exr::meta::attribute::AttributeValue;
@@ -9,14 +9,14 @@ use std::fs;
 use std::path::Path;
 
 const BOX: &str = include_str!("../scenes/box.yaml");
-/// 13 x 11 pixels.
+/// Number of pixels: 13 x 11.
 const PIXELS: usize = 143;
 
 fn folder() -> Folder {
     Folder::with("box.yaml", BOX)
 }
 
-/// Pixels by row, and the metadata without its prefix.
+/// Returns the pixels by row, and the metadata without its prefix.
 fn read_exr(path: &Path) -> (usize, Vec<[f32; 3]>, BTreeMap<String, String>) {
     let read = openexr::read_first_rgba_layer_from_file(
         path,
@@ -319,12 +319,12 @@ fn wrong_requests_exit_with_2_and_leave_nothing() {
     );
 }
 
-/// The box without the parameters that an accuracy replaces.
+/// Returns the box without the parameters that an accuracy replaces.
 fn accurate(error: f64, confidence: f64) -> Folder {
     let text = BOX.replace("  path_bits: 10\n", "");
     let text = text.lines().filter(|line| !line.starts_with("counting"));
     let text = text.collect::<Vec<_>>().join("\n");
-    // Planning takes as long as the film is large.
+    // Planning takes a time that grows with the film.
     let text = text.replace("width: 13, height: 11", "width: 5, height: 4");
     let text = format!("{text}\naccuracy: {{ error: {error}, confidence: {confidence} }}\n");
     Folder::with("box.yaml", &text)
@@ -365,7 +365,7 @@ fn an_accuracy_takes_the_parameters_that_keep_it_and_says_which() {
             "{parameter}"
         );
     }
-    // The same parameters whatever the seed and the threads; the same picture as of the parameters
+    // The parameters do not depend on the seed and the threads, and the picture is that of the parameters
     // alone.
     let other = [
         "--seed",
@@ -470,12 +470,12 @@ fn resuming_something_else_is_refused_and_replacing_it_is_said() {
     let anew = folder.qrt(&["render", "box.yaml", "--seed", "1"]);
     assert!(anew.status.success());
     assert!(String::from_utf8_lossy(&anew.stderr).contains("--resume"));
-    // With nothing to go on from, it begins.
+    // Without a checkpoint, `--resume` starts from the beginning.
     folder.works(&["render", "box.yaml", "--resume"]);
     assert_eq!(folder.names(), ["box.png", "box.yaml"]);
 }
 
-/// The file's header says which build has written it: a hash of the sources that decide a picture's bits.
+/// The file's header names the build that wrote it: a hash of the sources that decide a picture's bits.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_checkpoint_of_another_build_is_refused_and_left_as_it_was() {
@@ -483,12 +483,12 @@ fn a_checkpoint_of_another_build_is_refused_and_left_as_it_was() {
     folder.fails(1, &["render", "box.yaml", "--stats", "/dev/full"]);
     let mut bytes = folder.read("box.png.qrt-partial");
     let name = bytes.windows(5).position(|bytes| bytes == b"build");
-    // Behind the name and the value's length.
+    // The value follows the name and the value's length.
     let value = name.unwrap() + 9;
     let here = String::from_utf8(bytes[value..value + 16].to_vec()).unwrap();
     bytes[value] = if bytes[value] == b'0' { b'1' } else { b'0' };
     let there = String::from_utf8(bytes[value..value + 16].to_vec()).unwrap();
-    // As another build would have sealed it.
+    // Correct the checksum, as another build would have written it.
     let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap());
     let end = 16 + length as usize;
     let sum = crc32fast::hash(&bytes[..end]);
@@ -504,7 +504,7 @@ fn a_checkpoint_of_another_build_is_refused_and_left_as_it_was() {
     assert_eq!(folder.read("box.png.qrt-partial"), bytes);
 }
 
-/// The header and at least one tile.
+/// Size of a checkpoint with the header and at least one tile.
 #[cfg(unix)]
 const BEGUN: u64 = 2048;
 
@@ -599,7 +599,7 @@ fn whatever_the_instruction_set_the_picture_is_the_same() {
     assert!(!folder.path("box.png").exists());
 }
 
-/// Whether a process does something of its own at SIGINT.
+/// True if a process handles SIGINT.
 #[cfg(target_os = "linux")]
 fn handles_interrupts(process: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
@@ -615,7 +615,7 @@ fn an_interrupt_before_the_first_path_ends_it_at_once() {
     use std::time::{Duration, Instant};
 
     let folder = Folder::new();
-    // Its circuit takes many seconds to compile.
+    // The knot's circuit takes many seconds to compile.
     let knot = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/knot.yaml");
     let mut child = folder.started(&["render", knot, "--model", "fixed", "-o", "k.png"]);
     while !handles_interrupts(child.id()) {

@@ -1,5 +1,5 @@
-//! A scene may come from anyone: what it may read, how much it may take, and that it cannot make a
-//! picture that is not defined.
+//! Tests of untrusted scenes: the files that they may read, their resources, and that they cannot make
+//! an undefined picture.
 
 use crate::common::command::Folder;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use std::fs;
 /// A triangle.
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// A scene of these materials and this geometry, whose film is a pixel.
+/// Returns a scene with `materials` and `geometry`, whose film is a pixel.
 fn scene(materials: &str, geometry: &str) -> String {
     format!(
         "name: strange
@@ -65,14 +65,14 @@ fn nothing_outside_its_folder_is_read() {
     for obj in ["own.obj", "more/beside.obj", "more/../own.obj"] {
         assert_eq!(run(obj, &[]).status.code(), Some(0), "{obj}");
     }
-    // What is allowed is read, and then it is what is wrong with it that is told.
+    // With permission the file is read, and the error is about its content.
     let output = run("../secret", &["--allow-files", "."]);
     let errors = String::from_utf8(output.stderr).unwrap();
     assert!(errors.contains("QRT0323"), "{errors}");
     fs::write(folder.path("good.obj"), MESH).unwrap();
     let output = run("../good.obj", &["--allow-files", "."]);
     assert_eq!(output.status.code(), Some(0));
-    // A material library is a file as any other.
+    // A material library follows the rules of any other file.
     let own = format!("mtllib ../secret\nusemtl a\n{MESH}");
     fs::write(folder.path("inside/own.obj"), own).unwrap();
     fs::write(
@@ -87,7 +87,7 @@ fn nothing_outside_its_folder_is_read() {
     );
 }
 
-/// Runs the command with at most 1 GB of address space, and says its exit code.
+/// Runs the command with at most 1 GB of address space; returns its exit code and errors.
 #[cfg(unix)]
 fn confined(folder: &Folder, arguments: &str) -> (Option<i32>, String) {
     let program = env!("CARGO_BIN_EXE_qrt");
@@ -153,7 +153,7 @@ fn bombs_are_refused_in_a_gigabyte() {
     }
 }
 
-/// The circuit of a polygon of 12,000 corners, each of whose triangles is looked up by its number.
+/// The circuit of a polygon of 12,000 corners looks up each triangle by its number.
 #[cfg(unix)]
 #[test]
 fn circuits_of_many_faces_fit_in_a_gigabyte() {
@@ -213,7 +213,7 @@ fn verify_holds_where_a_channel_is_dark() {
     }
 }
 
-/// Bounds that saturate are negated, too.
+/// Saturated bounds are negated, too.
 #[test]
 fn numbers_at_the_end_of_what_there_is_are_refused() {
     let text = r"
@@ -232,7 +232,7 @@ sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }] }
     assert!(errors.contains("QRT0611"), "{errors}");
 }
 
-/// What a command reads beside a scene is a regular file: a pipe is not waited for, and a device not read
+/// Files that a command reads beside a scene must be regular: it neither waits for a pipe nor reads a device
 /// until memory ends.
 #[cfg(unix)]
 #[test]
@@ -261,7 +261,7 @@ fn parts_and_pictures_are_regular_files() {
     }
 }
 
-/// An operand that no register can hold is told, at whatever width.
+/// An operand that no register can hold is reported at every width.
 #[test]
 fn a_function_of_an_overwide_number_is_refused() {
     let folder = Folder::new();

@@ -1,11 +1,11 @@
-//! `qrt render --visibility grover` as scripts see it.
+//! Tests of `qrt render --visibility grover` from the outside.
 
 use crate::common::command::Folder;
 use serde_json::Value;
 
 const BLOCKS: &str = include_str!("../scenes/blocks.yaml");
 
-/// The small scene, seen by parallel rays.
+/// Creates a folder with the small scene, seen by parallel rays.
 fn folder() -> Folder {
     Folder::with("blocks.yaml", BLOCKS)
 }
@@ -44,7 +44,7 @@ fn primary_hits_are_searched_for_and_the_picture_is_the_same() {
     );
     assert!(said[2].contains("e-13 likely\n"), "{}", said[2]);
 
-    // Pictures say how they were made.
+    // The metadata of pictures name the search.
     let says = |name: &str, text: &str| {
         let bytes = folder.read(name);
         bytes

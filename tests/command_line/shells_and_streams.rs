@@ -1,4 +1,4 @@
-//! Names that a shell reads otherwise, standard output, and files with long names.
+//! Tests of names with special characters of shells, of standard output, and of files with long names.
 
 use crate::common::command::Folder;
 use serde_json::Value;
@@ -31,7 +31,7 @@ fn in_shell(folder: &Folder, line: &str) -> (bool, String) {
     (output.status.success(), errors)
 }
 
-/// The text between the last two backticks.
+/// Returns the text between the last two backticks.
 fn quoted(text: &str) -> &str {
     text.rsplit('`').nth(1).unwrap()
 }
@@ -154,7 +154,7 @@ fn counts_and_stats_go_to_standard_output_alone() {
     folder.works(&[&render[..], &["--counts", "c.csv", "--stats", "s.json"]].concat());
     let output = folder.qrt(&[&render[..], &["--counts", "-"]].concat());
     assert_eq!(output.stdout, folder.read("c.csv"));
-    // What is said of the picture goes elsewhere.
+    // The summary of the picture goes to standard error.
     assert!(
         String::from_utf8(output.stderr)
             .unwrap()
@@ -186,7 +186,7 @@ fn counts_and_stats_go_to_standard_output_alone() {
     );
 }
 
-/// Of 255 bytes, the longest that Linux's file systems have, in letters of one byte and of several.
+/// Names of 255 bytes, the longest of Linux's file systems, in letters of one byte and of several.
 #[test]
 fn pictures_with_the_longest_names_are_written_and_gone_on_with() {
     let folder = Folder::with("box.yaml", BOX);
@@ -224,7 +224,7 @@ fn pictures_with_the_longest_names_are_written_and_gone_on_with() {
     assert_eq!(folder.names(), ["box.yaml"]);
 }
 
-/// Nobody can create a file in `/sys`, root included.
+/// No user, root included, can create a file in `/sys`.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_folder_that_takes_no_files_is_named() {

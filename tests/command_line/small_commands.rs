@@ -1,4 +1,4 @@
-//! `qrt new`, `schema`, `completions`, and what holds for every command.
+//! Tests of `qrt new`, `schema`, `completions`, and of properties of every command.
 
 use crate::common::command::Folder;
 use qrt::prelude::{Options, render};
@@ -30,7 +30,7 @@ fn a_new_scene_renders_and_says_its_name() {
     assert!(said.contains("qrt render box.yaml"), "{said}");
     folder.works(&["render", "box.yaml"]);
     assert_eq!(folder.names(), ["box.png", "box.yaml"]);
-    // Whatever it is called.
+    // Any name of the scene works.
     for (name, file) in [
         ("other.yaml", "other.yaml"),
         ("v1.2", "v1.2.yaml"),
@@ -44,7 +44,7 @@ fn a_new_scene_renders_and_says_its_name() {
     }
 }
 
-/// Off by less than can be seen: an RMSE of a fiftieth of the mean, against sixteen times the paths.
+/// The error is too small to be seen: an RMSE of a fiftieth of the mean, against sixteen times the paths.
 #[test]
 fn the_first_picture_of_a_new_scene_is_one_to_show() {
     let folder = Folder::new();
@@ -62,7 +62,7 @@ fn the_first_picture_of_a_new_scene_is_one_to_show() {
     });
     let error = (squares.sum::<f64>() / 256.0).sqrt() / radiance(&limit[0]);
     assert!(error < 0.02, "{error}");
-    // Neither black nor burnt out.
+    // The picture is neither black nor overexposed.
     let mean = radiance(&shown.pixels);
     assert!((0.2..0.6).contains(&mean), "{mean}");
 }
@@ -144,7 +144,7 @@ fn readers_that_go_away_are_no_failure() {
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
         assert!(errors.is_empty(), "{arguments:?}: {errors}");
     }
-    // On standard error neither.
+    // A closed standard error causes no panic, either.
     for arguments in [
         &["render", "none.yaml"][..],
         &["render", "box.yaml", "--crop", "999,0,1,1"],

@@ -1,4 +1,4 @@
-//! `qrt trade` as scripts see it.
+//! Tests of `qrt trade` from the outside.
 
 use crate::common::command::Folder;
 
@@ -29,7 +29,7 @@ fn trade<'a>(threads: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["trade", "lit.yaml"], &QUICK[..], &[threads], more].concat()
 }
 
-/// A table's lines without their seconds and sums.
+/// Returns a table's lines without their seconds and checksums.
 fn timeless(folder: &Folder) -> Vec<String> {
     let text = String::from_utf8(folder.read("out/trade.csv")).unwrap();
     let lines = text.lines().skip(1);
@@ -80,7 +80,7 @@ fn a_table_plots_and_a_page_that_do_not_depend_on_threads() {
 /// Pages show no Markdown marks.
 #[test]
 fn the_page_and_the_summary_are_written_in_words() {
-    // So long that a face takes more than a line.
+    // The number is long enough that a face takes more than a line.
     let folder = Folder::with("lit.yaml", &LIT.replace("1.5", "1.5000000001"));
     let said = folder.works(&trade("2", &[]));
     let page = String::from_utf8(folder.read("out/index.html")).unwrap();
@@ -103,7 +103,7 @@ fn the_page_and_the_summary_are_written_in_words() {
     assert!(scene.lines().all(|line| line.trim() != "-"), "{scene}");
 }
 
-/// The address of the page's picture of the scene: all of it.
+/// Returns the whole address of the page's picture of the scene.
 fn picture(folder: &Folder) -> String {
     let page = String::from_utf8(folder.read("out/index.html")).unwrap();
     let start = page.find("data:image/png;base64,").expect("a picture");

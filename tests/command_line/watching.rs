@@ -1,4 +1,4 @@
-//! `qrt render --watch`: pictures of what is saved, and of nothing else.
+//! Tests of `qrt render --watch`: it renders each saved state of the files, and no other.
 #![cfg(unix)]
 
 use crate::common::command::{Folder, signalled};
@@ -16,7 +16,7 @@ counting: { estimator: exact }
 ";
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Until `name` holds these bytes.
+/// Waits until `name` holds these bytes.
 fn wait_for(folder: &Folder, name: &str, bytes: &[u8]) {
     let begun = Instant::now();
     while fs::read(folder.path(name)).ok().as_deref() != Some(bytes) {
@@ -29,7 +29,7 @@ fn wait_for(folder: &Folder, name: &str, bytes: &[u8]) {
 fn every_change_of_a_file_of_the_scene_is_rendered_until_ctrl_c() {
     let folder = Folder::with("scene.yaml", SCENE);
     let write = |name: &str, text: &str| fs::write(folder.path(name), text).unwrap();
-    // What each state of the files looks like.
+    // The pictures of each state of the files.
     let dim = SCENE.replace("[1, 0.5, 0.25]", "[0.5, 0.5, 0.125]");
     let wide = MESH.replace("v 1 0 0", "v 1.5 0 0");
     let states = [
@@ -53,7 +53,7 @@ fn every_change_of_a_file_of_the_scene_is_rendered_until_ctrl_c() {
     wait_for(&folder, "a.png", &pictures[1]);
     write("part.obj", states[2].1);
     wait_for(&folder, "a.png", &pictures[2]);
-    // A mistake is told, and mended by the next change.
+    // An error is reported, and the next change renders again.
     write("scene.yaml", &SCENE.replace("lamp: {", "lmp: {"));
     std::thread::sleep(Duration::from_secs(1));
     assert_eq!(folder.read("a.png"), pictures[2]);

@@ -1,4 +1,4 @@
-//! The command as a user runs it, in a folder of its own.
+//! Runs the command as a user does, in a folder of its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ impl Folder {
         Self(folder)
     }
 
-    /// With a scene in it.
+    /// Creates a folder with a scene in it.
     pub(crate) fn with(name: &str, text: &str) -> Self {
         let folder = Self::new();
         fs::write(folder.path(name), text).unwrap();
@@ -32,7 +32,7 @@ impl Folder {
         fs::read(self.path(name)).unwrap()
     }
 
-    /// What is in the folder, sorted.
+    /// Returns the names of the files in the folder, sorted.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.0).unwrap();
         let mut names: Vec<String> = entries
@@ -72,7 +72,7 @@ impl Folder {
         errors
     }
 
-    /// Starts the command; what it says is kept.
+    /// Starts the command, with its output captured.
     pub(crate) fn started(&self, arguments: &[&str]) -> Child {
         let mut command = self.command(arguments);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -80,7 +80,7 @@ impl Folder {
     }
 }
 
-/// Sends a signal, and waits for the end: its code, standard output and standard error.
+/// Sends a signal, and waits for the end: exit code, standard output and standard error.
 #[cfg(unix)]
 pub(crate) fn signalled(child: Child, signal: &str) -> (Option<i32>, String, String) {
     let id = child.id().to_string();
@@ -92,11 +92,11 @@ pub(crate) fn signalled(child: Child, signal: &str) -> (Option<i32>, String, Str
     (output.status.code(), said, errors)
 }
 
-/// Seconds that all processors have worked for a process; none where it is gone.
+/// Returns the seconds that all processors have worked for a process; `None` if it is gone.
 #[cfg(target_os = "linux")]
 pub(crate) fn worked(process: u32) -> Option<f64> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // Behind the name, which may hold anything: proc_pid_stat(5), in hundredths.
+    // The numbers follow the name, which may hold any characters: proc_pid_stat(5), in hundredths.
     let (_, numbers) = stat.rsplit_once(") ")?;
     let mut numbers = numbers.split(' ').skip(11);
     let mut next = || numbers.next()?.parse::<f64>().ok();

@@ -1,4 +1,4 @@
-//! What the tests of several groups begin with; each uses some of it.
+//! Helpers for tests of several groups; each group uses some of them.
 #![allow(dead_code, reason = "each test program uses some of it")]
 
 pub(crate) mod command;

@@ -1,10 +1,10 @@
-//! Numbers as good as random, the same each time.
+//! Pseudorandom numbers, the same in each run.
 
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        // splitmix64: seeds one after another give others.
+        // splitmix64: consecutive seeds give unrelated numbers.
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);

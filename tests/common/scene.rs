@@ -1,4 +1,4 @@
-//! Scenes of texts and of files.
+//! Scenes from texts and from files.
 
 use qrt::core::front::{load_with, parse};
 use qrt::core::valid::ValidScene;
@@ -8,13 +8,13 @@ fn owned(sets: &[&str]) -> Vec<String> {
     sets.iter().map(|&set| set.to_owned()).collect()
 }
 
-/// A scene of this text.
+/// Parses a scene from a text.
 pub(crate) fn written(text: &str, sets: &[&str]) -> ValidScene {
     let parsed = parse(text, "test.yaml", &owned(sets), "".as_ref());
     parsed.unwrap_or_else(|report| panic!("{report}")).valid
 }
 
-/// A scene of this repository's file.
+/// Loads a scene from a file of this repository.
 pub(crate) fn from_file(file: &str, sets: &[&str]) -> ValidScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     // Sets may name a mesh from anywhere in the repository.

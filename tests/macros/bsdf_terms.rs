@@ -1,5 +1,5 @@
-//! A reversible function as a scene's BSDF: its mathematics, which the function itself computes to
-//! within its rounding, on every machine.
+//! Tests of a reversible function as a scene's BSDF: the function computes the BSDF's mathematics to within
+//! its rounding, on every machine.
 
 #![allow(
     deprecated,
@@ -142,7 +142,7 @@ scene!(Written {
     },
 });
 
-/// The expressions of a scene's material.
+/// Returns the expressions of a scene's material.
 fn expressions(material: &str) -> Vec<Expr> {
     let materials = &Terms::scene().scene().materials;
     let found = materials.iter().find(|(name, _)| name == material);
@@ -153,7 +153,7 @@ fn expressions(material: &str) -> Vec<Expr> {
     bsdf.value.iter().map(parse).collect()
 }
 
-/// That a routine, on all machines, computes a material's expressions to within `error`: `inputs`
+/// Checks that a routine, on all machines, computes a material's expressions to within `error`: `inputs`
 /// are the numbers of its registers, `outputs` their values afterwards, in the channels' order.
 fn check<const N: usize>(
     material: &str,
@@ -186,7 +186,7 @@ fn check<const N: usize>(
     }
 }
 
-/// Multiples of `1 / parts` from `first` to `last`.
+/// Returns multiples of `1 / parts` from `first` to `last`.
 fn steps(first: i32, last: i32, parts: i32) -> Vec<[f64; 1]> {
     let all = first * parts..=last * parts;
     all.map(|step| [f64::from(step) / f64::from(parts)])
@@ -340,7 +340,7 @@ fn a_term_is_the_expression_written_out() {
     assert_eq!(terms, written);
 }
 
-/// Where nothing is known of them outside, functions are terms too.
+/// Functions are terms even where they are not visible outside.
 #[test]
 fn a_function_within_a_function() {
     #[reversible]
@@ -354,7 +354,7 @@ fn a_function_within_a_function() {
     assert_eq!(bsdf.value, ["0.25*cos_i"]);
 }
 
-/// A term's name may come from another macro, path and all.
+/// A term's name may come from another macro, with its path.
 #[test]
 fn a_term_as_a_macros_variable() {
     macro_rules! of {

@@ -1,5 +1,5 @@
-//! What `qrt!` compiles is the circuit of the scene: the same program, computed and undone, the
-//! same numbers on every machine, and the same picture.
+//! Tests of the code that `qrt!` compiles: it is the circuit of the scene, with the same program, computed
+//! and uncomputed, the same numbers on every machine, and the same picture.
 
 #![allow(
     deprecated,
@@ -24,7 +24,7 @@ qrt! {
     scene Lattice from "tests/scenes/lattice.yaml"
     scene Lit from "tests/scenes/lit.yaml"
 
-    /// What `Lit` reads from its file.
+    /// The scene that `Lit` reads from its file.
     scene LitTwin {
         name: "lit",
         camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
@@ -43,7 +43,7 @@ qrt! {
         precision { fraction: 12 },
     }
 
-    /// What `Floor` reads from its file.
+    /// The scene that `Floor` reads from its file.
     scene Twin {
         name: "floor-and-light",
         camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
@@ -59,7 +59,7 @@ qrt! {
         counting { phase_bits: 12 },
     }
 
-    /// Within so few qubits that most of what is undone is computed again, over and over.
+    /// A scene on few qubits, where most uncomputed values are recomputed, over and over.
     scene Few {
         camera: perspective { eye: (0.3, 1.5, -0.2), target: (0.3, 0, -0.2), up: (0, 0, 1), vfov: 60 },
         film: 8 x 8,
@@ -78,7 +78,7 @@ qrt! {
 }
 
 qrt! {
-    /// Named as what generated code speaks of.
+    /// A scene with names that generated code uses, too.
     #[cfg(all())]
     pub(crate) scene Field<Fixed<2, 30>> {
         camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
@@ -100,14 +100,14 @@ qrt! {
         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
         film: 1 x 1,
     }
-    /// Nothing to see, and one path.
+    /// An empty scene with one path.
     scene Dark {
         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
         film: 1 x 1,
         sampling { path_bits: 0 },
         depth primary { bits: (0, 0) },
     }
-    /// The same on all paths.
+    /// A scene whose paths are all alike.
     #[allow(non_camel_case_types)]
     scene r#type {
         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
@@ -119,7 +119,7 @@ qrt! {
     }
 }
 
-/// All that the code says to a recorder, from the first operation to the last inverse.
+/// Records the whole program of the code, from the first operation to the last inverse.
 fn whole<C: CompiledOracle>() -> Program {
     let mut recorder = C::OUTLINE.recorder();
     let id = C::OUTLINE.inputs(&mut recorder);
@@ -146,10 +146,10 @@ fn is_the_scene<C: CompiledOracle>() {
     assert!(whole::<C>().instructions == both, "not undone in reverse");
 }
 
-/// At most so many paths of a pixel are compared, the last ones.
+/// Most paths of a pixel that are compared, the last ones.
 const MOST: u64 = 1 << 14;
 
-/// By path of a pixel: by channel the count and the colour.
+/// Returns the count and the colour by channel, for each path of a pixel.
 fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
     let mut paths = Vec::new();
     let finished = |run: Finished<'_>| {
@@ -164,8 +164,8 @@ fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
     paths
 }
 
-/// All paths of a pixel, as native code by each instruction set, against the fixed machine; and
-/// some of them one basis state at a time.
+/// Compares all paths of a pixel, as native code by each instruction set, with the fixed machine; and some
+/// of them one basis state at a time.
 fn computes_what_the_fixed_machine_does<C: NativeOracle>(pixel: [u32; 2]) {
     let oracle: Arc<Oracle> = C::oracle().unwrap().into();
     let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), pixel);
@@ -233,7 +233,7 @@ fn constants_are_those_of_the_oracle() {
     assert_eq!(Box::OPERATIONS, oracle.program.ops.len());
 }
 
-/// Fields of the layout read what the real tracer knows of a path.
+/// Fields of the layout have the values of the real tracer's path.
 #[test]
 fn the_layout_reads_rays_of_unit_length_inside_the_box() {
     let ray = Box::LAYOUT.ray1;
@@ -272,13 +272,13 @@ fn the_layout_reads_rays_of_unit_length_inside_the_box() {
     assert!(hits > 50, "{hits} hits");
 }
 
-/// Whether a ray meets something within half a unit of the circuit's.
+/// Flips `near` if a ray meets a face within half a unit of the circuit's.
 #[reversible]
 fn is_near(found: &Bool, distance: &UFixed<2, 16>, near: &mut Bool) {
     near ^= found && distance < 0.5;
 }
 
-/// A field is a register that a reversible function takes; what the function leaves is the caller's.
+/// A reversible function takes a field as a register; the caller keeps its results.
 #[test]
 fn a_function_takes_fields_as_registers() {
     let (pixel, ray) = ([30, 20], Box::LAYOUT.ray0);
@@ -305,7 +305,7 @@ fn a_function_takes_fields_as_registers() {
             "path {path}"
         );
         count[usize::from(expected)] += 1;
-        // The same again undoes it: all that is left is the path's index.
+        // A second call uncomputes the first: only the path's index is left.
         Box::within(&mut state, &id, |state, path| {
             path.with(state, &ray.found, |state, found| {
                 path.with(state, &ray.distance, |state, distance| {
@@ -319,7 +319,7 @@ fn a_function_takes_fields_as_registers() {
     assert!(count[0] > 0, "{count:?}");
 }
 
-/// What is computed among a path's registers and never undone is found when all of them are zero again.
+/// A register that is computed among a path's registers and not uncomputed is found at the end.
 #[test]
 fn what_is_left_within_a_path_is_found() {
     let (mut state, id) = State::path::<Box>(1, [30, 20], 3).unwrap();
@@ -334,7 +334,7 @@ fn what_is_left_within_a_path_is_found() {
     assert!(told.contains("`own`"), "{told}");
 }
 
-/// The macro's tokens and the file's text are one scene, one program and one picture.
+/// The macro's tokens and the file's text give the same scene, program and picture.
 #[test]
 fn a_scene_and_its_twin_are_one() {
     assert_eq!(Twin::scene().scene(), Floor::scene().scene());
@@ -367,7 +367,7 @@ fn pictures_are_those_of_the_scene() {
         let built = render(Floor::scene(), &floor).unwrap();
         assert_eq!(compiled.image.pixels, built.image.pixels);
         assert_eq!(compiled.good, built.good);
-        // Of sampled lamps' pixels, one class is compiled: colours are the same, at another scale.
+        // For pixels with sampled lamps, only one class is compiled: colours are the same, at another scale.
         let lit = Options {
             estimator: Some(Estimator::Exact),
             ..options([0, 0, 8, 8])
@@ -384,7 +384,7 @@ fn pictures_are_those_of_the_scene() {
     }
 }
 
-/// What the compiled circuit does not do is refused, and nothing else done in its place.
+/// A request that the compiled circuit cannot meet is refused, not replaced by another.
 #[test]
 fn what_a_compiled_circuit_does_not_do_is_refused() {
     qrt! {
@@ -431,7 +431,7 @@ fn what_a_compiled_circuit_does_not_do_is_refused() {
         refused(render_compiled::<Accurate>(&fixed)),
         CompiledError::Accuracy
     );
-    // An estimator takes the place of the scene's, as in `render`.
+    // An estimator in the options replaces the scene's, as in `render`.
     let sine = Options {
         estimator: Some(Estimator::Sine),
         crop: Some([30, 30, 2, 1]),
@@ -445,7 +445,7 @@ fn what_a_compiled_circuit_does_not_do_is_refused() {
     assert_eq!(compiled.image.pixels, built.image.pixels);
 }
 
-/// In a function, and private.
+/// The scene stands in a function, and is private.
 #[test]
 fn a_scene_may_stand_in_a_function() {
     qrt! { scene Inner from "tests/scenes/lattice.yaml" }

@@ -1,4 +1,4 @@
-//! A scene that `qrt!` spells out is the scene that YAML says: the same data, the same image bytes.
+//! Tests that a scene written with `qrt!` equals the scene in YAML: the same data, the same image bytes.
 
 use qrt::core::front::{load, parse};
 use qrt::prelude::*;
@@ -92,6 +92,6 @@ fn a_scene_from_a_file_is_the_scene_of_the_file() {
     let loaded = load(Path::new("scenes-yaml/knot.yaml"), &[]).unwrap();
     assert_eq!(Knot::scene().scene(), loaded.valid.scene());
     assert_eq!(Knot::scene().fingerprint(), loaded.valid.fingerprint());
-    // The mesh is in the program.
+    // The program contains the mesh.
     assert_eq!(Knot::scene().files(), [PathBuf::from("meshes/knot.obj")]);
 }

@@ -1,5 +1,5 @@
-//! Predicates of one's own: what is counted is what a loop over all paths finds, on every machine;
-//! what is rendered is the light of these paths; and the numbers that they read are the scene's.
+//! Tests of user-defined predicates: a count equals that of a loop over all paths, on every machine; a render
+//! shows the light of these paths; and the numbers that predicates read are the scene's.
 
 use qrt::circuit::Op;
 use qrt::core::oracle::PredicateError;
@@ -53,7 +53,7 @@ qrt! {
         circuit { uncompute: scoped },
     }
 
-    /// So few qubits that its amplitudes can be followed.
+    /// A scene on few qubits, whose amplitudes can be simulated.
     scene Tiny<Fixed<2, 4>> {
         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 2 },
         film: 2 x 2,
@@ -64,7 +64,7 @@ qrt! {
         comparator { bits: 1 },
     }
 
-    /// Its last rays go to the lamp, and are not traced.
+    /// A scene whose last rays go to the lamp, and are not traced.
     scene Lit<Fixed<2, 10>> {
         camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
         film: 2 x 2,
@@ -92,7 +92,7 @@ fn by_way_of<const A: u32, const B: u32>(first: &UInt<3>, second: &UInt<3>, good
     good ^= first == A && second == B;
 }
 
-/// good ^= the way to the first two faces is shorter than five units, and leaves the first upwards
+/// Flips `good` if the way to the first two faces is shorter than five units and leaves the first upwards.
 #[reversible]
 fn short_and_up(
     first: &UFixed<4, 11>,
@@ -111,7 +111,7 @@ fn short_and_up(
     }
 }
 
-/// good ^= the last ray meets the front of the lamp or the wall, beyond x = -0.5, and is reddish
+/// Flips `good` if the last ray meets the front of the lamp or the wall, beyond x = -0.5, and is reddish.
 #[reversible]
 fn ends_well(
     material: &UInt<3>,
@@ -139,7 +139,7 @@ type Code = fn(&mut Recorder, &Path, &mut Reg<qrt::circuit::Recorded, Bool>);
 
 type Plain = fn(&TracedPath<'static>) -> bool;
 
-/// A predicate as circuits have it, and as one says it of a path in floating point.
+/// A predicate in a circuit, and the same predicate of a path in floating point.
 const PREDICATES: [(Code, Plain); 4] = [
     (
         |m, path, good| on::<RED, _>(m, &path.ray1.material, good),
@@ -217,14 +217,14 @@ fn a_counted_predicate_is_that_of_a_loop_over_all_paths_on_every_machine() {
             }
         }
     }
-    // Of none are there none, or all.
+    // Neither no path nor all paths satisfy any of them.
     assert!(
         found.iter().all(|&found| 20 < found && found < 340),
         "{found:?}"
     );
 }
 
-/// Whatever is read of a path is the scene's: points in its units, unit vectors, radiance.
+/// Checks the numbers of a path against the scene: points in its units, unit vectors, radiance.
 fn numbers_are_the_scenes<S: PathScene>(tolerance: f64, units: f64) {
     let scene = S::scene();
     let mut hits = 0;
@@ -233,7 +233,7 @@ fn numbers_are_the_scenes<S: PathScene>(tolerance: f64, units: f64) {
         let [real, fixed, gates] = [Model::Real, Model::Fixed, Model::Gates]
             .map(|model| trace_path::<S>(model, 3, pixel, id).unwrap());
         assert_eq!(fixed, gates);
-        // A bounce within rounding of an edge may go elsewhere: what is compared is the first ray.
+        // A bounce within rounding of an edge may go elsewhere, so the test compares the first ray.
         let (a, b) = (&real.rays[0], &fixed.rays[0]);
         for k in 0..3 {
             assert!((a.origin[k] - b.origin[k]).abs() < tolerance * units);
@@ -309,7 +309,7 @@ fn names_are_numbers() {
     assert_eq!([Far::MATERIALS.warm_red, Far::MATERIALS.r#type], [1, 2]);
 }
 
-/// In scopes, too, whose registers are undone early; and in coarse units far away.
+/// Scopes are covered too, whose registers are uncomputed early, and coarse units far away.
 #[test]
 fn machines_agree_on_predicates_of_scoped_circuits() {
     #[reversible]
@@ -334,8 +334,8 @@ fn machines_agree_on_predicates_of_scoped_circuits() {
     assert!(10 < all && all < 86, "{real:?}");
 }
 
-/// The whole counting circuit around a predicate's oracle, every gate on amplitudes and every
-/// ancilla looked at after every query, has the distribution that counts are drawn from.
+/// The whole counting circuit around a predicate's oracle, with every gate on amplitudes and every ancilla
+/// checked after every query, has the distribution from which counts are drawn.
 #[test]
 fn a_predicates_oracle_is_counted_by_the_whole_circuit() {
     #[reversible]
@@ -449,7 +449,7 @@ fn estimators_tell_a_fraction_an_interval_and_their_queries() {
             );
         }
     }
-    // 36 intervals of 95 %: 29 and fewer hold less often than once in 1,000 times.
+    // 36 intervals of 95 %: 29 or fewer of them hold less often than once in 1,000 times.
     assert!(inside >= 30, "{inside} of 36");
 }
 

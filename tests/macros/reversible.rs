@@ -1,8 +1,8 @@
-//! Reversible routines compute what plain integers say, on every machine, and can be undone.
+//! Tests that reversible routines compute the same as plain integers, on every machine, and can be uncomputed.
 
 use qrt::prelude::*;
 
-/// Runs a program on all machines, which must agree, and backwards, which must lead back.
+/// Runs a program on all machines, which must agree, and backwards, which must restore the states.
 pub(super) fn run_all(program: &Program, states: &[Vec<u64>]) -> Vec<Vec<u64>> {
     let result = run::on_definition(program, states).unwrap();
     assert_eq!(run::on_gates(program, states).unwrap(), result);
@@ -14,7 +14,7 @@ pub(super) fn run_all(program: &Program, states: &[Vec<u64>]) -> Vec<Vec<u64>> {
     result
 }
 
-/// All contents of registers of these widths.
+/// Returns all contents of registers of these widths.
 pub(super) fn all(widths: &[u32]) -> Vec<Vec<u64>> {
     let mut states = vec![Vec::new()];
     for width in widths {
@@ -30,7 +30,7 @@ pub(super) fn all(widths: &[u32]) -> Vec<Vec<u64>> {
     states
 }
 
-/// Of both styles: that the routine maps each state as `expected` does, that its inverse maps it
+/// Checks in both styles that the routine maps each state as `expected` does, that its inverse maps it
 /// back, and that the two inverses agree.
 pub(super) fn check(
     [forward, backward]: [fn(Style) -> Program; 2],
@@ -72,7 +72,7 @@ fn a_polynomial() {
     );
 }
 
-/// out += x - y + 3, by additions that are taken back in another order than they were made in.
+/// out += x - y + 3, by additions that are undone in another order than that of the additions.
 #[reversible]
 fn in_any_order(x: &UInt<3>, y: &UInt<3>, out: &mut UInt<4>) {
     let mut t: UInt<4> = 0;
@@ -233,7 +233,7 @@ fn all_then(widths: &[u32], rest: &[u64]) -> Vec<Vec<u64>> {
     states
 }
 
-/// Every comparison, in a bit each.
+/// Computes every comparison, in a bit each.
 #[reversible]
 fn compare(a: &Int<4>, b: &UInt<3>, out: &mut UInt<8>) {
     out[0] ^= a < b;
@@ -274,7 +274,7 @@ fn comparisons() {
     );
 }
 
-/// Conditions in conditions, also in a function that is called, with scratch in all of them.
+/// Conditions in conditions, also in a called function, with scratch in all of them.
 #[reversible]
 fn nested(a: &UInt<2>, b: &mut UInt<4>, c: &mut UInt<3>) {
     if a[0] {
@@ -422,7 +422,7 @@ fn exact(x: i64) -> f64 {
     x - x * x / 4.0 + 0.25
 }
 
-/// Scratch that is uncomputed by hand, in the order of the author's choice.
+/// Scratch that is uncomputed by hand, in an order that the author chose.
 #[reversible]
 fn by_hand(x: &UInt<4>, y: &UInt<4>, out: &mut UInt<6>) {
     let mut sum: UInt<5> = 0;
@@ -477,7 +477,7 @@ fn scratch_uncomputed_by_hand() {
     );
 }
 
-/// 20 bits and more, at random.
+/// Registers of 20 bits and more, tested on random numbers.
 #[reversible]
 fn wide(a: &Int<20>, b: &UInt<21>, c: &Int<30>, out: &mut Int<54>) {
     out += (a + b) * c - 12345 * a;
@@ -607,7 +607,7 @@ fn unripple(a: &mut UInt<4>, b: &mut UInt<4>) {
     ripple_inverse(&mut a, &mut b);
 }
 
-/// Scratch whose bits come and go apart from each other, across a swap under a comparison.
+/// Scratch whose bits are allocated and freed independently, across a swap under a comparison.
 #[reversible]
 fn in_parts(x: &UInt<3>, y: &UInt<3>, out: &mut UInt<4>) {
     let mut low: UInt<3> = 0;
@@ -652,7 +652,7 @@ fn scratch_is_uncomputed_bit_by_bit() {
 
 const FOUR: usize = 4;
 
-/// Registers of an array: neighbours are put in order, and what has been swapped is kept.
+/// Sorts neighbours in an array of registers, and keeps which of them were swapped.
 #[reversible]
 fn bubble(all: &mut [UInt<2>; FOUR], swapped: &mut [Bool; 3]) {
     for i in 0..3 {
@@ -663,7 +663,7 @@ fn bubble(all: &mut [UInt<2>; FOUR], swapped: &mut [Bool; 3]) {
     }
 }
 
-/// Arrays handed over, as wholes and one by one, and an array of scratch.
+/// Passes arrays, whole and one by one, and uses an array of scratch.
 #[reversible]
 fn pass_on(all: &mut [UInt<2>; FOUR], sum: &mut UInt<4>) {
     let mut swapped: [Bool; 3] = [false; 3];

@@ -1,5 +1,5 @@
-//! The routines of `examples/textbook.rs` do what they say on all contents of their registers, on
-//! all machines, and forget nothing.
+//! Tests that the routines of `examples/textbook.rs` are correct on all contents of their registers, on all
+//! machines, and leave no garbage.
 
 use super::reversible::{all, check, run_all};
 use qrt::circuit::{Gate, lower};
@@ -11,7 +11,7 @@ mod routines;
 
 use routines::*;
 
-/// The program backwards.
+/// Returns the inverse of a program.
 macro_rules! undone {
     ($program:expr) => {
         |style| $program(style).inverse()
@@ -37,7 +37,7 @@ fn sums_swaps_and_comparisons() {
 fn an_increment_that_goes_around() {
     let programs = [increment_modulo_program, undone!(increment_modulo_program)];
     check(programs, &all(&[4]), |s| {
-        // Beyond the modulus, what the exchange of it and 0 makes of a sum.
+        // The exchange of 11 and 0 decides the result for x of 11 or more.
         vec![match (s[0] + 1) % 16 {
             0 => 11,
             11 => 0,
@@ -114,7 +114,7 @@ fn the_book_shows_what_they_cost() {
         let (toffoli, measured) = (cost.toffoli, cost.and_measured);
         let row = format!("| {name} | {toffoli} | {measured} | {published} |");
         assert!(book.contains(&row), "{row}");
-        // Each count is that of the gates themselves.
+        // Each count equals the number of gates.
         let gates = lower::circuit(&program).gates;
         let counted = gates
             .iter()

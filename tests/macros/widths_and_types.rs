@@ -1,5 +1,5 @@
-//! Reversible routines whose widths are computed from constants, and those of types: methods of formats, functions
-//! of types of one's own.
+//! Tests of reversible routines whose widths are computed from constants, and of routines of types: methods of
+//! formats, functions of user-defined types.
 
 use super::reversible::{all, check, run_all};
 use qrt::circuit::{Declaration, Type};
@@ -48,7 +48,7 @@ fn neither_way<const W: u32>(a: &UInt<W>, b: &UInt<W>, out: &mut UInt<{ 2 * (W +
     difference_of_the_two_inverse(&a, &b, &mut out);
 }
 
-/// What a function of known widths hands over.
+/// Calls it from a function of known widths.
 #[reversible]
 fn square_of_five_bits(a: &UInt<5>, out: &mut UInt<10>) {
     square(&a, &mut out);
@@ -87,7 +87,7 @@ fn widths_are_computed_from_constants() {
     check(programs, &states, <[u64]>::to_vec);
 }
 
-/// Numbers with a point, whose bits before it are a constant of the function's, too.
+/// Fixed-point numbers whose integer bits are a constant of the function, too.
 #[reversible]
 fn double<const I: u32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<{ I + 1 }, F>) {
     y += x << 1;
@@ -111,7 +111,7 @@ fn bits_before_the_point_are_computed() {
     }
 }
 
-/// What is done to a number of any width, in place.
+/// Operations on a number of any width, in place.
 #[reversible]
 trait InPlace {
     /// Adds one.
@@ -138,7 +138,7 @@ impl<const W: u32> InPlace for UInt<W> {
     }
 }
 
-/// b += a + 1 where the flag is set, and a - b elsewhere.
+/// Adds a + 1 to b if the flag is set, and a - b otherwise.
 #[reversible]
 fn by_methods(flag: &Bool, a: &UInt<4>, b: &mut UInt<4>) {
     if flag {
@@ -173,7 +173,7 @@ fn methods_of_formats() {
     let program = UInt::<3>::add_one_more_to_program(Style::InPlace);
     assert_eq!(program.registers[0].name, "self");
     assert_eq!(run_all(&program, &[vec![3, 6]]), [[3, 2]]);
-    // On a machine by hand, too.
+    // The test also calls it on a machine by hand.
     let mut state = State::new();
     let x = state.input(&Declaration::work("x", Type::UInt, 3), 6);
     let mut x: Reg<_, UInt<3>> = Reg::of(x);
@@ -186,7 +186,7 @@ fn methods_of_formats() {
 
 struct Steps;
 
-/// Functions of a type of one's own, all of them reversible.
+/// Functions of a user-defined type, all of them reversible.
 #[reversible]
 impl Steps {
     const LENGTH: u64 = 3;
@@ -209,7 +209,7 @@ fn an_impl_of_functions() {
     );
 }
 
-/// Registers called like variables that a BSDF's expression knows are registers like others.
+/// Registers may have the names of variables in a BSDF's expression.
 mod called_like_variables {
     use qrt::prelude::*;
 
@@ -219,7 +219,7 @@ mod called_like_variables {
         v += u >> 1;
     }
 
-    /// Functions of one name, one of them with another's parameters.
+    /// Functions with the same name, one of them with another's parameters.
     pub(super) mod inner {
         use qrt::prelude::*;
 
@@ -275,7 +275,7 @@ fn registers_may_be_called_like_variables_of_a_bsdf() {
     assert_eq!(end(&local_program(Style::InPlace), &[7, 5]), [7, 12]);
 }
 
-/// Functions of a type, and of one that is generic itself.
+/// Functions of a type, and of a type that is generic itself.
 struct Adder<const W: u32>;
 
 impl<const W: u32> Adder<W> {

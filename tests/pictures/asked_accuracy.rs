@@ -1,4 +1,4 @@
-//! An asked accuracy is kept, as cheaply as can be, or refused.
+//! Tests that a requested accuracy is kept, at the least cost, or refused.
 
 use crate::common::scene::written;
 use qrt::core::scene::Estimator;
@@ -12,12 +12,12 @@ use qrt::runtime::workers::Workers;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// A lamp over a floor, seen obliquely; two rays.
+/// Returns a lamp over a floor, seen obliquely; two rays.
 fn lit(accuracy: &str, more: &str) -> ValidScene {
     lit_on([16, 12], accuracy, more)
 }
 
-/// The same on a film of another width and height.
+/// Returns the same on a film of another width and height.
 fn lit_on([width, height]: [u32; 2], accuracy: &str, more: &str) -> ValidScene {
     let text = format!(
         "
@@ -41,7 +41,7 @@ fn planned(scene: &ValidScene) -> Plan {
     plan(scene, &Options::default()).unwrap().unwrap()
 }
 
-/// The promise itself, against far more paths of another seed, on the circuit's numbers.
+/// Checks the promise itself, against far more paths of another seed, on the circuit's numbers.
 fn the_asked_share_is_within(cases: [(f64, f64, Range<u64>); 2]) {
     for (error, confidence, seeds) in cases {
         let scene = lit(

@@ -1,4 +1,4 @@
-//! The hierarchy of boxes finds exactly what a loop over all faces finds: the same bytes.
+//! Tests that the hierarchy of boxes finds exactly the hits of a loop over all faces: the same bytes.
 
 use crate::common::scene::{from_file, written};
 use qrt::core::tracer::{NO_PLANE, Start};
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 const KNOT: &str = "scenes-yaml/knot.yaml";
 
-/// Every path's colour, bit for bit.
+/// Returns every path's colour, bit for bit.
 fn colours(real: &Real) -> Vec<u64> {
     let pixels: Vec<[u32; 2]> = (0..36).map(|i| [i % 6, i / 6]).collect();
     let mut bits = Vec::new();
@@ -65,7 +65,7 @@ fn over_a_mesh() {
     assert_same(&from_file(KNOT, &sets));
 }
 
-/// Rays to points on lamps, of which one covers a part of another, and one is in a wall's plane.
+/// Rays to points on lamps, one of which covers a part of another, and one of which is in a wall's plane.
 #[test]
 fn over_shadows() {
     let depth = "{ bits: [6, 6], light: [6, 6] }";
@@ -88,7 +88,7 @@ fn over_shadows() {
     }
 }
 
-/// From so far away that rays arrive with an error far above a near ray's.
+/// Rays from so far away that they arrive with an error far above a near ray's.
 #[test]
 fn over_a_mesh_seen_from_afar() {
     let sets = [
@@ -101,7 +101,7 @@ fn over_a_mesh_seen_from_afar() {
     assert_same(&from_file(KNOT, &sets));
 }
 
-/// Numbers from -1 to 1, always the same.
+/// Returns a generator of numbers from -1 to 1, the same in each run.
 fn random() -> impl FnMut() -> f64 {
     let mut state = 7_u64;
     move || {
@@ -112,8 +112,8 @@ fn random() -> impl FnMut() -> f64 {
     }
 }
 
-/// Directions of any length, almost or quite along an axis, from near and from afar, alone or many: the
-/// boxes are of single precision, which holds few of these.
+/// Directions of any length, almost or exactly along an axis, from near and from afar, alone or many: the
+/// boxes are of single precision, which holds few of these numbers.
 #[test]
 fn over_rays_of_extreme_lengths_and_places() {
     let scene = from_file(KNOT, &[]);
@@ -123,7 +123,7 @@ fn over_rays_of_extreme_lengths_and_places() {
     for length in [1e-40, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e40] {
         for far in [0.2, 1.0, 3.0, 1e4, 1e8] {
             for thin in [0.0, 1e-300, 1e-30, 1e-13, 1e-9, 1e-4, 1.0] {
-                // Films may lie on a plane.
+                // A film may lie on a plane.
                 let starts = [
                     (NO_PLANE, Start::Camera),
                     (0, Start::Camera),
@@ -155,8 +155,8 @@ fn over_rays_of_extreme_lengths_and_places() {
     }
 }
 
-/// Camera rays walk together where they go the same way: bundles of all widths, from one point or
-/// from many, along an axis or across, a few of them short of a value's lanes.
+/// Camera rays are traced together if they go the same way: bundles of all widths, from one point or
+/// from many, along an axis or across, a few of them too small for all lanes of a vector.
 #[test]
 fn over_bundles_of_rays() {
     let scene = from_file(KNOT, &[]);
@@ -239,7 +239,7 @@ fn over_cubes_that_touch_and_coincide() {
     assert_same(&written(&text, &[]));
 }
 
-/// More emitting faces than a last ray asks one by one.
+/// More emitting faces than a last ray tests one by one.
 #[test]
 fn over_many_lamps() {
     let mut text = HEAD.to_owned();

@@ -1,4 +1,4 @@
-//! What counting makes of a picture, against closed forms.
+//! Tests of counting in pictures, against closed forms.
 
 use crate::common::scene::written;
 use qrt::prelude::*;
@@ -30,8 +30,8 @@ fn exact_is_the_mean_of_the_paths_and_asks_no_oracle() {
     assert!(rendered.counts().all(|count| count.good.is_none()));
 }
 
-/// `|a~ - a| <= 2 pi sqrt(a (1 - a))/T + pi^2/T^2` with probability at least 8/pi^2 (Brassard,
-/// Hoyer, Mosca & Tapp, theorem 12); half a comparator's step, and half an index, come on top.
+/// `|a~ - a| <= 2 pi sqrt(a (1 - a))/T + pi^2/T^2` with probability at least 8/pi^2 (Brassard, Hoyer, Mosca &
+/// Tapp, theorem 12); half a comparator's step, and half an index, are added.
 #[test]
 fn counted_pixels_keep_the_bound_in_the_promised_share() {
     let phases = 256.0;
@@ -47,7 +47,7 @@ fn counted_pixels_keep_the_bound_in_the_promised_share() {
             let within = rendered.image.pixels.iter();
             let within = within.filter(|p| (p[channel] - COLOUR[channel]).abs() <= bound);
             let share = within.count() as f64 / 256.0;
-            // Three standard errors below.
+            // Allow three standard errors below.
             let promise = 8.0 / (PI * PI);
             let least = promise - 3.0 * (promise * (1.0 - promise) / 256.0).sqrt();
             assert!(share >= least, "{estimator}, channel {channel}: {share}");
@@ -58,7 +58,7 @@ fn counted_pixels_keep_the_bound_in_the_promised_share() {
 
 #[test]
 fn no_good_id_is_counted_as_none() {
-    // The rectangular window reads theta = 0 without error.
+    // The rectangular window measures theta = 0 without error.
     let rendered = render(&written(FURNACE, &[]), &with(Estimator::Paper, 5)).unwrap();
     assert!(rendered.scales.greatest()[2] > 1.0);
     assert!(rendered.image.pixels.iter().all(|pixel| pixel[2] == 0.0));
@@ -126,7 +126,7 @@ fn nothing_is_black_and_takes_no_queries() {
     }
 }
 
-/// What is proven black has no error that anything could be relative to, and needs none.
+/// A channel that is proven black has no relative error, and needs no queries.
 #[test]
 fn nothing_is_black_to_any_accuracy() {
     let scene = written(NOTHING, &["accuracy={ error: 0.01, confidence: 0.9 }"]);

@@ -1,6 +1,6 @@
 //! The cube [-1, 1]^3, as a room.
 
-/// Its six walls, fronts inwards: four corners each.
+/// Its six walls, with fronts inwards: four corners each.
 pub(crate) const WALLS: [[usize; 4]; 6] = [
     [0, 2, 6, 4],
     [1, 5, 7, 3],
@@ -10,7 +10,7 @@ pub(crate) const WALLS: [[usize; 4]; 6] = [
     [4, 6, 7, 5],
 ];
 
-/// The corner with bit k of `code` as its k-th coordinate.
+/// Returns the corner with bit k of `code` as its k-th coordinate.
 pub(crate) fn corner(code: usize) -> [f64; 3] {
     std::array::from_fn(|k| if code >> k & 1 == 1 { 1.0 } else { -1.0 })
 }

@@ -1,4 +1,4 @@
-//! Pictures that are counted with few queries are as bright as they are.
+//! Tests that pictures counted with few queries have the right brightness.
 
 use qrt::core::front;
 use qrt::core::scene::Estimator;
@@ -18,14 +18,14 @@ struct Errors {
 }
 
 impl Errors {
-    /// The bias in standard errors of the picture's mean, and the standard deviation of this number.
+    /// Returns the bias in standard errors of the picture's mean, and the standard deviation of this number.
     fn in_standard_errors(&self) -> [f64; 2] {
         let side = f64::from(SIDE);
         [self.bias * side / self.rmse, side / self.channels.sqrt()]
     }
 }
 
-/// Compares an example scene, counted with a phase register of `phase_bits`, with the exact counts.
+/// Compares an example scene, counted with a phase register of `phase_bits` bits, with the exact counts.
 fn errors(scene: &str, estimator: Estimator, phase_bits: u32) -> Errors {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes-yaml/{scene}.yaml"));
     let sets = [
@@ -60,8 +60,8 @@ fn errors(scene: &str, estimator: Estimator, phase_bits: u32) -> Errors {
     }
 }
 
-/// Measured to 0.58 standard errors of the picture's mean, of which three are allowed on top of one. Under
-/// a prior that is even in the amplitude the Cornell box has 16 with 63 queries.
+/// The measurement has a deviation of 0.58 standard errors of the picture's mean, of which the test allows three
+/// in addition to one. Under a prior that is even in the amplitude the Cornell box has 16 with 63 queries.
 #[test]
 fn a_picture_counted_with_few_queries_is_as_bright_as_it_is() {
     for scene in ["cornell-box", "lit-box"] {

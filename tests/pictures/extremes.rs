@@ -1,7 +1,7 @@
-//! The extremes that must hold: for each, what must hold and what was measured.
+//! Extremes that must hold: for each, the requirement and the measurement.
 //!
-//! `docs/extremes.md` is the table of all of them. Everything in it is measured by these tests and
-//! depends on no machine, so that the file is compared as it stands; `QRT_BLESS=1` writes it anew.
+//! `docs/extremes.md` is the table of all of them. These tests measure all of it, and it depends on no
+//! machine, so they compare the file as it is; `QRT_BLESS=1` writes it again.
 
 mod counts;
 mod rooms;

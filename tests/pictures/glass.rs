@@ -1,4 +1,4 @@
-//! Glass in any arrangement: closed, nested, overlapping, its fronts outwards or inwards, the camera within.
+//! Tests of glass in any arrangement: closed, nested, overlapping, its fronts outwards or inwards, the camera within.
 
 use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
@@ -22,7 +22,7 @@ fn red(text: &str, model: Model) -> Vec<f64> {
     rendered.image.pixels.iter().map(|pixel| pixel[0]).collect()
 }
 
-/// The six sides of a box of a material, whose fronts look outwards or inwards.
+/// Returns the six sides of a box of a material, whose fronts face outwards or inwards.
 fn cuboid(low: [f64; 3], high: [f64; 3], inwards: bool, material: &str) -> String {
     let mut text = String::new();
     for corners in sides(low, high, inwards) {
@@ -34,7 +34,7 @@ fn cuboid(low: [f64; 3], high: [f64; 3], inwards: bool, material: &str) -> Strin
     text
 }
 
-/// A lamp in a box of glass: from outside, behind two faces of the box.
+/// Returns a lamp in a box of glass: from outside, behind two faces of the box.
 fn lamp_in_a_box(ior: f64, inwards: bool, camera: &str) -> String {
     format!(
         "name: box\ncamera: {camera}\nfilm: {{ width: 2, height: 2 }}\nmaterials:\n  lamp: {{ emitter: {{ \
@@ -46,7 +46,7 @@ fn lamp_in_a_box(ior: f64, inwards: bool, camera: &str) -> String {
 }
 
 /// Straight ahead, a path refracts with probability 1 - F into a medium that is `index` as dense, and then
-/// sees the lamp, whose radiance is that much denser where it is seen from.
+/// sees the lamp, whose radiance grows with the squared index at the eye.
 #[test]
 fn a_lamp_in_a_bubble_is_as_bright_as_in_the_block_that_is_the_same() {
     let camera = "{ perspective: { eye: [0.1, 0.2, 3], target: [0, 0, 0], vfov: 6 } }";
@@ -62,7 +62,7 @@ fn a_lamp_in_a_bubble_is_as_bright_as_in_the_block_that_is_the_same() {
                     "{model:?} {bubble} {block}"
                 );
                 let expected = (1.0 - straight) * ior * ior;
-                // Among 64 cells, one more or less is reflected; and the way is a little oblique.
+                // Among 64 cells, one more or less is reflected; and the direction is a little oblique.
                 assert!(
                     (bubble / expected - 1.0).abs() < 0.03,
                     "{model:?} {bubble} {expected}"
@@ -72,7 +72,7 @@ fn a_lamp_in_a_bubble_is_as_bright_as_in_the_block_that_is_the_same() {
     }
 }
 
-/// The eye within a block, and a film that cuts through one: there is no way out that is refracted back.
+/// The eye is within a block, or the film cuts through one: no refraction on the way out cancels the gain.
 #[test]
 fn from_within_glass_light_is_denser() {
     for (inwards, ior) in [(false, 1.5_f64), (true, 1.0 / 1.5)] {
@@ -104,8 +104,8 @@ fn from_within_glass_light_is_denser() {
     }
 }
 
-/// Another material that transmits lies on a side of a block and is listed first: rays enter through it and
-/// leave through glass, refracted once, so that light gains what it does not lose again.
+/// Another transmitting material lies on a side of a block, earlier in the list: rays enter through it and
+/// leave through glass, refracted once, so that light gains a factor that it does not lose again.
 #[test]
 fn beside_glass_that_is_covered_the_bound_holds() {
     for (ior, inwards) in [(1.5, false), (0.75, false), (1.5, true)] {
@@ -129,7 +129,7 @@ fn beside_glass_that_is_covered_the_bound_holds() {
     }
 }
 
-/// A light of radiance 1 from everywhere, around boxes of glass.
+/// Returns a light of radiance 1 from everywhere, around boxes of glass.
 fn furnace(numbers: &mut Numbers) -> String {
     let mut geometry = cuboid([-16.0; 3], [16.0; 3], true, "light");
     let grid = |numbers: &mut Numbers| (numbers.below(13) as f64 - 6.0) / 2.0;
@@ -156,15 +156,15 @@ fn furnace(numbers: &mut Numbers) -> String {
     )
 }
 
-/// The squared index at the eye, over that where the path ends, outside: 1, or what the pieces around the eye
-/// make of it.
+/// The radiance is the squared index at the eye, over that where the path ends, outside: 1, or the value
+/// that the pieces around the eye give.
 #[test]
 fn in_a_furnace_all_paths_around_any_glass_see_one_radiance_or_are_cut_off() {
     let (mut seen, mut cut, mut refused) = (0_u64, 0_u64, 0);
     for seed in 0..200 {
         let text = furnace(&mut Numbers(seed));
         let Ok(loaded) = parse(&text, "furnace.yaml", &[], "".as_ref()) else {
-            // Pieces that touch.
+            // Pieces that touch are refused.
             refused += 1;
             continue;
         };
@@ -189,6 +189,6 @@ fn in_a_furnace_all_paths_around_any_glass_see_one_radiance_or_are_cut_off() {
         assert!(rendered.is_ok(), "{:?}\n{text}", rendered.err());
     }
     assert!(refused < 150, "{refused}");
-    // Twelve rays: most paths are out by then.
+    // Twelve rays: most paths have left by then.
     assert!(cut * 2 < seen, "{cut} of {seen}");
 }

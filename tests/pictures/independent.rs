@@ -1,4 +1,4 @@
-//! Pictures of an independent renderer, and how qrt's compare with them.
+//! Pictures of an independent renderer, and their comparison with qrt's.
 //!
 //! The data and its conventions are described in `tests/references/README.md`.
 
@@ -13,15 +13,15 @@ pub(crate) type Picture = Vec<[f64; 3]>;
 /// Pixels along each side of the reference pictures.
 pub(crate) const SIDE: u32 = 16;
 
-/// A file of the reference data.
+/// Returns the path of a file of the reference data.
 pub(crate) fn file(name: &str) -> PathBuf {
     let root = env!("CARGO_MANIFEST_DIR");
     [root, "tests", "references", name].iter().collect()
 }
 
-/// The numbers of a NumPy array file: little-endian floats in C order.
+/// Reads the numbers of a NumPy array file: little-endian floats in C order.
 ///
-/// Format: the magic, the version 1.0, the header's length in two bytes, and a header that says
+/// Format: the magic, the version 1.0, the header's length in two bytes, and a header that contains
 /// `'descr': '<f4'` or `'<f8'`, then the values.
 pub(crate) fn array(name: &str) -> Vec<f64> {
     let bytes = std::fs::read(file(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -46,7 +46,7 @@ pub(crate) struct Reference {
     pub(crate) standard_error: Picture,
 }
 
-/// The reference of a scene at a depth (rays on a path).
+/// Reads the reference of a scene at a depth (rays on a path).
 pub(crate) fn reference(scene: &str, depth: usize) -> Reference {
     let read = |suffix: &str| -> Picture {
         let values = array(&format!("{scene}_D{depth}_{SIDE}{suffix}.npy"));
@@ -59,8 +59,8 @@ pub(crate) fn reference(scene: &str, depth: usize) -> Reference {
     }
 }
 
-/// Overrides that ask for `depth` rays and `2^path_bits` paths, with 16 bits for each coordinate in
-/// the pixel and 10 for those of directions; and of lamps, where they are sampled in some way.
+/// Returns the overrides for `depth` rays and `2^path_bits` paths, with 16 bits for each coordinate in the
+/// pixel and 10 for those of directions; and 10 for those of lamps, if `lights` samples them.
 pub(crate) fn asking(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
     let light = match lights {
         "none" => "",
@@ -74,7 +74,7 @@ pub(crate) fn asking(depth: usize, path_bits: u32, lights: &str) -> Vec<String> 
     ]
 }
 
-/// The scene of a file of the reference data, with overrides.
+/// Loads the scene of a file of the reference data, with overrides.
 pub(crate) fn scene(name: &str, sets: &[String]) -> ValidScene {
     let path = file(&format!("{name}.yaml"));
     match qrt_core::front::load(&path, sets) {
@@ -83,7 +83,7 @@ pub(crate) fn scene(name: &str, sets: &[String]) -> ValidScene {
     }
 }
 
-/// The picture that a machine makes.
+/// Renders a picture on a machine.
 pub(crate) fn picture(real: &Real, width: u32, height: u32) -> Picture {
     let pixels: Vec<[u32; 2]> = (0..width * height)
         .map(|i| [i % width, i / width])
@@ -105,7 +105,7 @@ fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The picture of `scene` under `seed`.
+/// Renders the picture of `scene` under `seed`.
 pub(crate) fn traced(scene: &ValidScene, seed: u64) -> Picture {
     let film = scene.scene().film;
     match Real::new(scene, seed) {
@@ -114,12 +114,12 @@ pub(crate) fn traced(scene: &ValidScene, seed: u64) -> Picture {
     }
 }
 
-/// The mean over pixels and channels.
+/// Returns the mean over pixels and channels.
 pub(crate) fn mean(picture: &[[f64; 3]]) -> f64 {
     picture.as_flattened().iter().sum::<f64>() / (3 * picture.len()) as f64
 }
 
-/// The root of the mean square over pixels and channels of `a - b`.
+/// Returns the root of the mean square over pixels and channels of `a - b`.
 pub(crate) fn rms_difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.as_flattened().iter().zip(b.as_flattened());

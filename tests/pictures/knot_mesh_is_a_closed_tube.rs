@@ -1,4 +1,4 @@
-//! The mesh beside the scenes is what its generator makes, and that is a closed smooth tube.
+//! Tests that the mesh beside the scenes is the output of its generator, and that it is a closed smooth tube.
 
 #[path = "../../benches/common/knot.rs"]
 mod knot;

@@ -1,4 +1,4 @@
-//! Lamps that are sampled: the light is the same however it is found, and is found sooner.
+//! Tests of sampled lamps: the light is the same by every way to find it, with less noise.
 
 use super::independent::{mean, rms_difference, traced};
 use crate::common::scene::{from_file, written};
@@ -11,7 +11,7 @@ use qrt::runtime::machines::Real;
 use qrt::runtime::random::Stream;
 use std::fmt::Write as _;
 
-/// A floor that a camera looks down at, what hangs above it, and a material of the floor.
+/// Returns a floor below a camera, the objects above it, and a material of the floor.
 fn room(material: &str, lamps: &str, more: &str, sampling: &str) -> ValidScene {
     written(&room_of(material, lamps, more, sampling), &[])
 }
@@ -59,7 +59,7 @@ fn sampling(bits: u32, lights: &str, map: &str) -> String {
     )
 }
 
-/// The picture's mean under several seeds, and its standard error.
+/// Returns the picture's mean under several seeds, and its standard error.
 fn measured(scene: &ValidScene) -> [f64; 2] {
     const SEEDS: u64 = 6;
     let means: Vec<f64> = (1..=SEEDS).map(|seed| mean(&traced(scene, seed))).collect();
@@ -68,7 +68,7 @@ fn measured(scene: &ValidScene) -> [f64; 2] {
     [middle, (spread / (SEEDS * (SEEDS - 1)) as f64).sqrt()]
 }
 
-/// All ways find as much light, up to what their spread and the cells of coordinates explain.
+/// Checks that all ways find the same light, within their spread and the cells of coordinates.
 fn agree(name: &str, material: &str, lamps: &str, map: &str, ways: &[&str]) {
     let of = |bits, way| measured(&room(material, lamps, BLOCK, &sampling(bits, way, map)));
     let [truth, error] = of(15, "none");
@@ -91,11 +91,11 @@ fn lamps_of_all_shapes_give_the_light_that_is_found_by_chance() {
     agree("kite", MATTE, KITE, "auto", &ways);
     agree("twisted", MATTE, TWISTED, "auto", &ways);
     agree("covered", MATTE, COVERED, "auto", &ways);
-    // One that stands on the floor has no bound of next-event estimation.
+    // A lamp that stands on the floor has no bound of next-event estimation.
     agree("two", MATTE, TWO, "auto", &["auto", "mis"]);
 }
 
-/// Where next-event estimation has no bound for a lamp, `auto` is multiple importance sampling; elsewhere it is
+/// If next-event estimation has no bound for a lamp, `auto` is multiple importance sampling; otherwise it is
 /// next-event estimation.
 #[test]
 fn auto_is_one_of_both() {
@@ -108,7 +108,7 @@ fn auto_is_one_of_both() {
     assert_ne!(picture(QUAD, "auto"), picture(QUAD, "mis"));
 }
 
-/// The faces of a mesh that emits are lamps one by one, as triangles of their own are.
+/// Each face of a mesh that emits is a lamp, like a triangle of its own.
 #[test]
 fn a_mesh_that_emits_is_sampled_face_by_face() {
     const CORNERS: [[f64; 3]; 5] = [
@@ -157,7 +157,7 @@ fn a_mesh_that_emits_is_sampled_face_by_face() {
     }
 }
 
-/// A device that loses its state and misreads it counts the paths to sampled lamps as it counts others: the
+/// A device that loses its state and misreads it counts the paths to sampled lamps like other paths: the
 /// same on integers as through gates.
 #[test]
 fn noise_is_that_of_any_picture() {
@@ -178,7 +178,7 @@ fn noise_is_that_of_any_picture() {
     let differ = |a: &[[f64; 3]], b: &[[f64; 3]]| a.iter().zip(b).filter(|(a, b)| a != b).count();
     assert_eq!(fixed.good, quiet.good);
     assert!(differ(&fixed.image.pixels, &quiet.image.pixels) > 0);
-    // Misreading a bit that is worth half of all is seldom.
+    // Misreading a bit that is worth half of the range is rare.
     let [mean, expected] = [&fixed, &quiet].map(|picture| picture.mean()[0]);
     assert!((mean / expected - 1.0).abs() < 0.5, "{mean} {expected}");
 }
@@ -203,8 +203,8 @@ fn every_material_reflects_as_much_of_a_lamp() {
     agree("mirror", mirror, QUAD, "auto", &ways);
 }
 
-/// A floor whose lamp shines only on a mirror, or only through glass: no point of it is ever connected,
-/// and its paths are worth no less than without lamps that are sampled.
+/// A floor whose lamp shines only on a mirror, or only through glass: no point of it is ever connected, and
+/// the noise of its paths is no larger than without sampled lamps.
 #[test]
 fn light_by_mirror_or_glass_alone_is_no_worse() {
     const MIRROR: &str = "  - quad: { vertices: [[-3, 1.2, -3], [3, 1.2, -3], [3, 1.2, 3], [-3, 1.2, 3]], material: mirror }
@@ -247,7 +247,7 @@ geometry:
     }
 }
 
-/// Pixels of the box that see no lamp: RMSE over the mean against many more paths.
+/// For pixels of the box that see no lamp: RMSE over the mean against many more paths.
 #[test]
 fn the_box_needs_few_paths() {
     let lit = |bits: u32, seed: u64| -> Vec<[f64; 3]> {
@@ -257,7 +257,7 @@ fn the_box_needs_few_paths() {
         let scene = from_file("scenes-yaml/cornell-box.yaml", &[&depths, &bits]);
         let classes = PixelClasses::new(&scene);
         let spread = (0..64 * 64).step_by(29).map(|k| [k % 64, k / 64]);
-        // Away from the lamp's rim too, whose light is none of what is sampled.
+        // Also leave out the lamp's rim, whose light is not sampled.
         let away = |&[x, y]: &[u32; 2]| {
             let near = |x, y| classes.of([x, y]) == PixelClass::MayMeetLamp;
             let (left, above) = (x.saturating_sub(1), y.saturating_sub(1));
@@ -283,7 +283,7 @@ fn the_box_needs_few_paths() {
     }
 }
 
-/// The scale of a pixel that meets no lamp is what a lamp lights, and no path exceeds it.
+/// The scale of a pixel that meets no lamp is the light that a lamp gives, and no path exceeds it.
 #[test]
 fn scales_are_proven_by_class_of_pixel() {
     let depth = "{ bits: [8, 8], light: [8, 8] }";
@@ -319,11 +319,11 @@ fn scales_are_proven_by_class_of_pixel() {
             "{seen:?} {dim:?}"
         );
     }
-    // Those pixels meet none: with all emission their paths carry no more.
+    // Those pixels meet no lamp: with all emission their paths carry no more.
     assert_eq!(seen, greatest(&of(PixelClass::MayMeetLamp), &unlit));
 }
 
-/// Of scenes of random faces, materials and lamps, some within each other: no path of any pixel
+/// For scenes of random faces, materials and lamps, some within each other: no path of any pixel
 /// carries more than the scale of the pixel's class.
 #[test]
 fn no_path_of_random_scenes_exceeds_the_proven_scale() {
@@ -336,7 +336,7 @@ fn no_path_of_random_scenes_exceeds_the_proven_scale() {
         for face in 0..4 + seed % 5 {
             let centre = [number(-1.0, 1.0), number(0.0, 2.0), number(-1.0, 1.0)];
             let [a, b] = [(); 2].map(|()| [(); 3].map(|()| number(-0.8, 0.8)));
-            // Every other face is upright or level, so that planes and edges meet.
+            // Every other face is vertical or horizontal, so that planes and edges meet.
             let flat = |v: [f64; 3]| if face % 2 == 0 { v } else { [v[0], 0.0, v[2]] };
             let (a, b) = (flat(a), flat(b));
             let at = |s: f64, t: f64| {
@@ -403,11 +403,11 @@ sampling: {{ path_bits: 8, lights: {lights}, depths: [{{ bits: [6, 6] }}, {depth
             }
         }
     }
-    // The test would be none if paths carried nothing, or scales were far above them.
+    // The test would be void if paths carried no light, or if scales were far above them.
     assert!(sampled > 1000 && near > 30, "{sampled} {near}");
 }
 
-/// A camera that is all but on a lit wall sees the wall's light, at a scale that holds it.
+/// A camera that nearly touches a lit wall sees the wall's light, at a scale that holds it.
 #[test]
 fn a_camera_close_to_a_wall_sees_what_lights_it() {
     let seen = |distance: f64| {
@@ -442,7 +442,7 @@ sampling: {{ path_bits: 10, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6], light:
     }
 }
 
-/// A closed block of glass multiplies no light, however many times a path refracts.
+/// A closed block of glass multiplies no light, for any number of refractions.
 #[test]
 fn closed_glass_does_not_multiply_the_scale() {
     let scene = |depths: usize| {
@@ -459,7 +459,7 @@ fn closed_glass_does_not_multiply_the_scale() {
     let lamp = bound(1);
     for depths in [2, 4, 6] {
         assert!(bound(depths) <= lamp, "{depths}: {} {lamp}", bound(depths));
-        // And no path carries more.
+        // No path carries more, either.
         let scene = scene(depths);
         let real = Real::new(&scene, 1).unwrap();
         let pixels: Vec<[u32; 2]> = (0..64 * 64).map(|k| [k % 64, k / 64]).collect();
@@ -485,7 +485,7 @@ fn sampling_what_is_not_there_is_told_and_changes_nothing() {
         )
     };
     let warned = dark(", light: [4, 4]");
-    // Besides, nothing is made of some materials of the room.
+    // Other warnings: some materials of the room are not used.
     let codes = |scene: &ValidScene| -> Vec<&str> {
         let codes = scene.warnings().iter().map(Problem::code);
         codes.filter(|code| *code != "QRT0220").collect()
@@ -495,12 +495,12 @@ fn sampling_what_is_not_there_is_told_and_changes_nothing() {
     assert_eq!(codes(&dark("")), ["QRT0221"]);
 }
 
-/// The classes that are listed are those that some pixel has.
+/// The listed classes are those of which the film has a pixel.
 #[test]
 fn a_lamp_beside_the_film_makes_no_class_of_pixels() {
     const QUAD: &str =
         "quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }";
-    // They fill the film together only.
+    // These triangles fill the film only together.
     const TRIANGLES: &str = "\
 triangle: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0]], material: lamp }
   - triangle: { vertices: [[-1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: lamp }";
@@ -531,7 +531,7 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: 
         assert_eq!(classes.present(), had, "{lamp} {target} {vfov}");
         had.len()
     };
-    // In the middle of the film; filling it; beside it; above it.
+    // The lamp in the middle of the film; filling it; beside it; above it.
     let seen = [
         ("[0, 0, 0]", 60),
         ("[0, 0, 0]", 5),
@@ -544,7 +544,7 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: 
             [2, 1, 1, 1]
         );
     }
-    // All of a large film's pixels are decided, too.
+    // The classes of all of a large film's pixels are decided, too.
     let large = scene(
         TRIANGLES,
         "[0, 0, 0]",

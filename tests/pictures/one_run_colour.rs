@@ -1,4 +1,4 @@
-//! Colour from one run of counting: the luminance of the estimator, and the colours of the paths
+//! Tests of colour from one run of counting: the luminance of the estimator, and the colours of the paths
 //! that it measured.
 
 use crate::common::scene::written;
@@ -8,8 +8,7 @@ use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::OracleMachine;
 use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
 
-/// Two lamps of different colours above a reddish floor: paths of
-/// one pixel differ in colour.
+/// Two lamps of different colours above a reddish floor: the paths of one pixel differ in colour.
 const LAMPS: &str = "
 name: lamps
 camera: { perspective: { eye: [0, 1, 4], target: [0, 0, 0], vfov: 40 } }
@@ -47,7 +46,7 @@ fn picture(
 /// Depths at which those lamps are sampled.
 const LIT: &str = "[{ bits: [4, 4] }, { bits: [6, 6], light: [6, 6] }]";
 
-/// The net's shift is the seed's, too: the mean over seeds is that of many shifted nets.
+/// The seed also sets the net's shift: the mean over seeds is that of many shifted nets.
 #[test]
 fn colours_are_right_on_average() {
     let lit = format!("sampling.depths={LIT}");
@@ -75,7 +74,7 @@ fn colours_are_right_on_average() {
             for c in 0..3 {
                 let mean = sum[place][c] / n;
                 let deviation = (square[place][c] / n / n).sqrt();
-                // Half a comparator's step, and the machine's rounding.
+                // The bias is half a comparator's step, and the machine's rounding.
                 let bias = 0.004 + 5.0 * deviation;
                 assert!(
                     mean.abs() < bias,
@@ -151,7 +150,7 @@ fn the_luminance_is_that_of_the_colours() {
     assert!(seen > 50, "{seen}");
 }
 
-/// A run instead of three; its circuit is not three times as large.
+/// One run replaces three; its circuit is not three times as large.
 #[test]
 fn one_run_takes_a_third_of_the_queries() {
     let scene = written(LAMPS, &[]);
@@ -217,7 +216,7 @@ fn as_many_pixels_are_grey_as_the_estimator_says() {
         let rendered = render(&scene, &options).unwrap();
         let exact = picture(&scene, Model::Real, Estimator::Exact, Colour::ThreeRuns, 0);
         let pairs = rendered.image.pixels.iter().zip(&exact.image.pixels);
-        // Of darker pixels the window of few bits may say nothing.
+        // With few bits, the window may find no good index of darker pixels.
         let lit = pairs.filter(|(_, exact)| exact.iter().sum::<f64>() > 0.4);
         let lit: Vec<&[f64; 3]> = lit.map(|(pixel, _)| pixel).collect();
         let grey = lit.iter().filter(|[r, g, b]| r == g && g == b).count() as f64;

@@ -1,5 +1,5 @@
-//! An estimator of one's own renders pictures as those do that there are, and is told of wherever a
-//! picture says how it was made.
+//! Tests that a user-defined estimator renders pictures like the built-in ones, and that the metadata of a
+//! picture names it.
 
 use crate::common::scene::written;
 use qrt::prelude::*;
@@ -14,7 +14,7 @@ fn scene(sets: &[&str]) -> ValidScene {
     written(BOX, sets)
 }
 
-/// A known estimator in a coat.
+/// A built-in estimator in a wrapper.
 struct Wrapped(BoxedEstimator);
 
 static RUNS: AtomicU64 = AtomicU64::new(0);

@@ -1,8 +1,8 @@
-//! The real model where numbers are extreme: right, or refused; never NaN.
+//! Tests of the real model with extreme numbers: correct, or refused; never NaN.
 //!
-//! Most of it happens in a furnace: a closed room whose walls all glow and reflect alike. Wherever
-//! a camera in it looks, and however the room is built, a path of D rays brings
-//! `Le (1 - rho^D) / (1 - rho)`; a leak, a lost hit or a rounding error shows.
+//! Most tests use a furnace: a closed room whose walls all glow and reflect alike. In every direction of
+//! a camera in it, and for every construction of the room, a path of D rays brings
+//! `Le (1 - rho^D) / (1 - rho)`; a leak, a lost hit or a rounding error changes this value.
 
 use super::cube::{WALLS, corner};
 use crate::common::scene::{from_file, written};
@@ -24,7 +24,7 @@ fn triangles() -> Vec<Vec<Point>> {
     all.map(|half| half.map(corner).to_vec()).collect()
 }
 
-/// A line of a scene's geometry.
+/// Returns a line of a scene's geometry.
 fn listed(kind: &str, vertices: &[Point], material: &str) -> String {
     format!("  - {kind}: {{ vertices: {vertices:?}, material: {material} }}\n")
 }
@@ -45,7 +45,7 @@ impl Room {
         }
     }
 
-    /// The furnace from `eye` towards `target`, both in the cube's coordinates.
+    /// Renders the furnace from `eye` towards `target`, both in the cube's coordinates.
     fn seen(&self, eye: Point, target: Point, film: [u32; 2], vfov: f64) -> Vec<[f64; 3]> {
         let mut geometry = String::new();
         for polygon in &self.polygons {
@@ -57,7 +57,7 @@ impl Room {
             let vertices: Vec<Point> = polygon.iter().map(|&p| (self.place)(p)).collect();
             geometry += &listed(kind, &vertices, "wall");
         }
-        // Along the view `up` says nothing.
+        // `up` must not be parallel to the view.
         let up = if eye[0] == target[0] && eye[2] == target[2] {
             "[0, 0, 1]"
         } else {
@@ -81,7 +81,7 @@ impl Room {
         ))
     }
 
-    /// Nothing but the furnace's own colour.
+    /// Checks that every pixel has the furnace's own colour.
     fn check(&self, eye: Point, target: Point, film: [u32; 2], vfov: f64) {
         let exact: [f64; 3] = std::array::from_fn(|c| {
             self.radiance * RADIANCE[c] * (1.0 - ALBEDO[c].powi(DEPTH)) / (1.0 - ALBEDO[c])
@@ -97,7 +97,7 @@ impl Room {
     }
 }
 
-/// The picture: pixels from the top left, row by row.
+/// Renders the picture: pixels from the top left, row by row.
 fn traced(text: &str) -> Vec<[f64; 3]> {
     let scene = written(text, &[]);
     let film = scene.scene().film;
@@ -119,8 +119,8 @@ fn a_closed_box_leaks_nothing_at_its_vertices_and_edges() {
     for room in [Room::new(quads()), Room::new(triangles())] {
         for eye in EYES {
             for code in 0..8 {
-                // Exactly at a vertex; its neighbourhood, a nanoradian across; and along the edges
-                // that meet there.
+                // Exactly at a vertex; its neighbourhood, a nanoradian across; and along the edges that meet
+                // there.
                 room.check(eye, corner(code), [1, 1], 10.0);
                 room.check(eye, corner(code), [9, 9], 1e-7);
                 for k in 0..3 {
@@ -138,7 +138,7 @@ fn a_closed_box_leaks_nothing_at_its_vertices_and_edges() {
 
 #[test]
 fn a_box_of_many_thin_triangles_leaks_nothing() {
-    // Each wall in slivers 1e-9 wide beside halves of the rest.
+    // Each wall is slivers 1e-9 wide beside halves of the rest.
     let mut slivers = Vec::new();
     for wall in WALLS {
         let [a, b, c, d] = wall.map(corner);
@@ -165,7 +165,7 @@ fn a_box_of_many_thin_triangles_leaks_nothing() {
 
 #[test]
 fn neither_size_nor_place_matters() {
-    // Eyes and targets that are exact where the room stands far away.
+    // Eyes and targets are exact even where the room stands far away.
     let places: [fn(Point) -> Point; 5] = [
         |p| p.map(|c| 1e-6 * c),
         |p| p.map(|c| 1e9 * c),
@@ -204,7 +204,7 @@ fn a_camera_may_stand_on_a_wall_and_look_along_it() {
         room.check([1.0, 0.0, 0.0], [-1.0, 0.25, 0.125], [4, 4], 60.0);
         room.check([1.0, 1.0, 0.0], [-1.0, -0.25, 0.125], [4, 4], 30.0);
         room.check([1.0, 1.0, 1.0], [0.0, 0.0, 0.0], [4, 4], 20.0);
-        // A hair above a wall: rays graze it with cosines down to 1e-10.
+        // Slightly above a wall: rays graze it with cosines down to 1e-10.
         room.check(
             [0.0, -1.0 + 1e-9, 0.0],
             [1.0, -1.0 + 2e-9, 0.25],
@@ -222,7 +222,7 @@ fn a_camera_may_stand_on_a_wall_and_look_along_it() {
 
 #[test]
 fn a_lamp_a_ten_thousandth_of_the_scene_lights_and_shows_as_any_other() {
-    // The lamp and the camera of a scene of ordinary size, shrunk by 1e-4 above a floor that isn't.
+    // The lamp and the camera of a scene of ordinary size, scaled by 1e-4 above a floor that is not.
     let scene = |size: f64| {
         let lamp = [
             [-0.5, 2.0, -0.5],
@@ -258,10 +258,10 @@ film: {{ width: 2, height: 2 }}
 {rest}"
         ))
     };
-    // Straight at the lamp.
+    // The camera looks straight at the lamp.
     assert_eq!(seen(1e-4, true), vec![[10.0, 8.0, 6.0]; 4]);
-    // What it throws on the floor: albedo Le F, with F of the point below the camera within what
-    // the pixels spread over.
+    // Its light on the floor is albedo Le F, with F of the point below the camera within the spread of
+    // the pixels.
     for pixel in seen(1e-4, false) {
         for (c, full) in [8.0, 4.0, 1.2].into_iter().enumerate() {
             let form_factor = pixel[c] / full;
@@ -331,8 +331,8 @@ geometry:
                         "{material} {map}: {picture:?}"
                     );
                 }
-                // In a room of radiance 1 nothing that conserves energy is brighter, if each path
-                // weighs what its surface reflects (glass squeezes light by the squared index).
+                // In a room of radiance 1 no surface that conserves energy is brighter, if the weight of each path
+                // is the reflection of its surface (glass squeezes light by the squared index).
                 if map == "auto" && !material.contains("dielectric") {
                     let most = picture.as_flattened().iter().copied().fold(0.0, f64::max);
                     assert!(most < 1.1, "{material} {map}: {most}");
@@ -342,7 +342,7 @@ geometry:
     }
 }
 
-/// Random directions under two densities, and the net's: one integral.
+/// Random directions under two densities, and the net's, give the same integral.
 #[test]
 fn random_paths_have_the_mean_of_dense_ones_whatever_their_density() {
     const PATHS: u64 = 1 << 16;
@@ -366,7 +366,7 @@ fn random_paths_have_the_mean_of_dense_ones_whatever_their_density() {
                 }
             }
         });
-        // How many standard errors they are apart: a standard normal, if both are right.
+        // The distance in standard errors: a standard normal, if both are right.
         let mut apart = Vec::new();
         for (sum, dense) in sums.iter().zip(&dense) {
             for (&[first, second], dense) in sum.iter().zip(dense.colour) {

@@ -1,24 +1,24 @@
-//! The real model's pictures are those of an independent renderer.
+//! Compares the real model's pictures with those of an independent renderer.
 //!
-//! What may differ is known: a randomly shifted digital net is unbiased, and two seeds say how far
-//! a picture is from its limit. With A and B of two seeds, the error of their mean has the mean
-//! square `|A - B|^2 / 4`; the reference has its own standard error. A right picture's distance
-//! from the reference is about the root of the sum of both, a wrong one's is not.
+//! The possible difference is known: a randomly shifted digital net is unbiased, and two seeds show the
+//! distance of a picture from its limit. With pictures A and B of two seeds, the error of their mean has
+//! the mean square `|A - B|^2 / 4`; the reference has its own standard error. The distance of a right
+//! picture from the reference is about the root of the sum of both, and that of a wrong one is not.
 
 use super::independent::{self, Picture, Reference, SIDE, mean, rms_difference, traced};
 use qrt_core::valid::ValidScene;
 
-/// How far the distance may exceed its expectation. It is a root mean square over 256 pixels with
-/// heavy tails, of which a tenth or so varies by chance; half as much again is out of its reach.
+/// Factor by which the distance may exceed its expectation. It is a root mean square over 256 pixels with
+/// heavy tails, of which about a tenth varies by chance; 1.5 times the expectation is beyond chance.
 const CHANCE: f64 = 1.5;
 
-/// Of the mean: what 10 bits a direction's coordinate, instead of all, may add.
+/// Allowance for 10 bits per direction's coordinate, instead of all, as a fraction of the mean.
 const CELLS: f64 = 2e-3;
 
-/// Errors of the mean in standard deviations: 32 means are looked at, one in 370 exceeds 3.
+/// Allowed error of a mean in standard deviations: the tests look at 32 means, and one in 370 exceeds 3.
 const SIGMAS: f64 = 4.0;
 
-/// Two pictures of one scene, and what they say.
+/// The mean of two pictures of one scene, and its error.
 struct Measured {
     picture: Picture,
     /// Root mean square error of the picture, from the two seeds' difference.
@@ -36,7 +36,7 @@ fn measure(scene: &ValidScene) -> Measured {
     }
 }
 
-/// Whether this is the reference's picture, as far as the errors of both can tell.
+/// Checks that a picture equals the reference, within the errors of both.
 fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
     let level = mean(&theirs.picture);
     let noise = rms_difference(
@@ -63,18 +63,18 @@ fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
     }
 }
 
-/// The scene at every depth, with `2^path_bits` paths under each of two seeds; `promise` is the
-/// RMSE over the mean that 2^18 paths keep.
+/// Checks the scene at every depth, with `2^path_bits` paths under each of two seeds; `promise` is the
+/// promised RMSE over the mean with 2^18 paths.
 fn agrees(name: &str, path_bits: u32, promise: f64) {
     agrees_with(name, path_bits, promise, |depth| {
         independent::asking(depth, path_bits, "none")
     });
 }
 
-/// The same with lamps sampled, in both ways; `promise` is the RMSE that 2^12 paths keep.
+/// Checks the same with lamps sampled, in both ways; `promise` is the promised RMSE with 2^12 paths.
 fn agrees_by_lamps(name: &str, promise: f64) {
     for lights in ["auto", "mis"] {
-        // As `agrees` states it, of 2^18 paths whose error falls as that of random ones.
+        // `agrees` states it for 2^18 paths, with an error that falls like that of random ones.
         agrees_with(name, 11, promise / 8.0, |depth| {
             independent::asking(depth, 11, lights)
         });
@@ -97,7 +97,7 @@ fn agrees_with(name: &str, path_bits: u32, promise: f64, asking: impl Fn(usize) 
         if let Err(figures) = compare(&ours, &reference) {
             panic!("{name} D={depth}: {figures}");
         }
-        // A net is never worse than random paths, whose error grows by sqrt(2) for a bit less.
+        // A net is never worse than random paths, whose error grows by sqrt(2) per bit less.
         let fewer = f64::from(18 - (path_bits + 1));
         let most = promise * (0.5 * fewer).exp2() * level;
         assert!(
@@ -158,7 +158,7 @@ fn the_cornell_boxes_agree_by_lamps() {
 #[test]
 fn boxes_with_other_materials_agree_by_lamps() {
     agrees_by_lamps("cornell_ggx", 0.03);
-    // What a lamp lights by way of glass or mirrors is found by chance, as ever.
+    // Light of a lamp by way of glass or mirrors is still found by chance.
     agrees_by_lamps("cornell_glass", 0.25);
     agrees_by_lamps("cornell_mirrorwall", 0.25);
 }
@@ -187,7 +187,7 @@ fn the_furnace_is_exact_at_every_depth() {
     }
 }
 
-/// Radiance of the floor by the closed form, for a floor of `scale` times the scene's albedo.
+/// Returns the radiance of the floor by the closed form, for a floor of `scale` times the scene's albedo.
 fn floor(scale: f64) -> Reference {
     let full = [0.8 * 10.0, 0.5 * 8.0, 0.2 * 6.0];
     let form_factors = independent::array("floorlight_exact_F_16.npy");
@@ -214,7 +214,7 @@ fn the_floor_is_its_closed_form_at_every_depth_and_by_every_map() {
 const COSINE: &str = "['sqrt(u)*cos(2*pi*v)', 'sqrt(u)*sin(2*pi*v)', 'sqrt(1-u)']";
 const UNIFORM: &str = "['sqrt(1-u^2)*cos(2*pi*v)', 'sqrt(1-u^2)*sin(2*pi*v)', 'u']";
 
-/// The floor with a BSDF of one's own, whose values hold half of the scene's albedo.
+/// Renders the floor with a user-defined BSDF, whose values hold half of the scene's albedo.
 fn floor_of(map: &str, value: &str) -> Measured {
     let values = [0.4, 0.25, 0.1].map(|half| format!("\"{half}*({value})\""));
     let mut sets = independent::asking(2, 14, "none");
@@ -229,10 +229,10 @@ fn floor_of(map: &str, value: &str) -> Measured {
 fn a_wrong_cosine_or_jacobian_would_be_noticed() {
     let exact = floor(0.5);
     for map in [COSINE, UNIFORM] {
-        // Right: albedo / pi, however it is written.
+        // Right: albedo / pi, in any form.
         assert_eq!(compare(&floor_of(map, "1/pi"), &exact), Ok(()));
         assert_eq!(compare(&floor_of(map, "cos_i/(pi*cos_i)"), &exact), Ok(()));
-        // A Jacobian that is off by one part in fifty.
+        // A Jacobian with an error of one part in fifty.
         assert!(compare(&floor_of(map, "1.02/pi"), &exact).is_err());
         // One cosine too many.
         assert!(compare(&floor_of(map, "cos_i/pi"), &exact).is_err());
@@ -280,7 +280,7 @@ fn a_flipped_picture_or_swapped_channels_would_be_noticed() {
     for (what, picture) in wrong {
         assert!(compare(&picture, &reference).is_err(), "{what} passes");
     }
-    // One ray more or less is another picture.
+    // One ray more or less gives another picture.
     assert!(compare(&right, &independent::reference("cornell", 2)).is_err());
     assert!(compare(&right, &independent::reference("cornell", 4)).is_err());
 }

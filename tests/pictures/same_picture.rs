@@ -1,4 +1,4 @@
-//! A picture depends on the scene, the seed and the estimator, and on nothing else.
+//! Tests that a picture depends only on the scene, the seed and the estimator.
 
 use crate::common::scene::written;
 use qrt::prelude::*;
@@ -14,7 +14,7 @@ fn scene(sets: &[&str]) -> ValidScene {
     written(BOX, sets)
 }
 
-/// Every bit of a picture, and its queries.
+/// Returns every bit of a picture, and its queries.
 fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>) {
     let pixels = rendered.image.pixels.iter();
     let pixels = pixels.map(|pixel| pixel.map(f64::to_bits)).collect();
@@ -36,7 +36,7 @@ fn threads(count: usize) -> Workers<'static> {
     }
 }
 
-/// A path that no other test uses; what is there is removed.
+/// A path that no other test uses; the file there is removed.
 struct Partial(PathBuf);
 
 impl Partial {
@@ -78,7 +78,7 @@ fn for_any_number_of_threads_and_any_tiles() {
 
 #[test]
 fn for_any_lanes() {
-    // With more paths than a block has, and with fewer.
+    // More paths than a block has, and fewer.
     for path_bits in ["sampling.path_bits=10", "sampling.path_bits=2"] {
         let scene = scene(&[path_bits]);
         for estimator in ESTIMATORS {
@@ -108,7 +108,7 @@ fn a_pixel_of_many_paths_is_shared_by_threads_and_is_still_their_mean() {
         let one = render(&scene, &one).unwrap();
         assert_eq!(bits(&one), bits(&render(&scene, &three).unwrap()));
         if estimator == Estimator::Exact {
-            // In another order of additions.
+            // Add the colours in another order.
             let mut sums = [[0.0; 3]; 2];
             Real::new(&scene, 3)
                 .unwrap()
@@ -161,7 +161,7 @@ fn a_crop_is_a_part_of_the_whole() {
     }
 }
 
-/// How a render ends that `cancel` stops, its progress told.
+/// Returns the error of a render that `cancel` stops, with its progress reported.
 fn stopped(
     scene: &ValidScene,
     options: &Options<'_>,
@@ -179,7 +179,7 @@ fn stopped(
     render(scene, &options).unwrap_err()
 }
 
-/// Renders until `paths` more paths are traced, and tells how many pixels were finished then.
+/// Renders until `paths` more paths are traced; returns the number of pixels that were finished then.
 fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
     let cancel = AtomicBool::new(false);
     let traced = AtomicU64::new(0);
@@ -219,7 +219,7 @@ fn interrupted_and_resumed_or_not() {
             };
             let first = interrupt(&scene, &options, paths);
             assert!(first > 0);
-            // Goes on where it was, and can be interrupted again.
+            // The render resumes, and can be interrupted again.
             let two = Options {
                 workers: threads(2),
                 ..options.clone()
@@ -227,7 +227,7 @@ fn interrupted_and_resumed_or_not() {
             let second = interrupt(&scene, &two, paths / 4);
             assert!(second >= first, "{first} pixels, then {second}");
             let last = render(&scene, &Options { tile: None, ..two }).unwrap();
-            // Of unfinished pixels, some more.
+            // Unfinished pixels have some more paths.
             let finished = second * (last.paths / last.queries.len() as u64);
             assert!(last.resumed_paths >= finished);
             assert_eq!(bits(&last), expected);
@@ -237,7 +237,7 @@ fn interrupted_and_resumed_or_not() {
 
 #[test]
 fn an_interruption_waits_for_no_pixel() {
-    // Of 2^40 paths, cut into 4,096 parts.
+    // 2^40 paths, cut into 4,096 parts.
     let scene = scene(&["sampling.path_bits=40", "film={ width: 1, height: 1 }"]);
     for model in [Model::Real, Model::Fixed] {
         let (cancel, later) = (AtomicBool::new(false), AtomicU64::new(0));
@@ -293,7 +293,7 @@ fn an_interrupted_pixel_goes_on_within_itself() {
                 workers: threads(count),
                 ..options.clone()
             };
-            // Nothing that was traced is lost.
+            // No traced path is lost.
             assert_eq!(interrupt(&scene, &options, 300_000), 0);
             let resumed = resumed(&scene, &options);
             assert!(resumed >= kept + 300_000, "{resumed} after {kept}");
@@ -305,7 +305,7 @@ fn an_interrupted_pixel_goes_on_within_itself() {
     }
 }
 
-/// A tile is not finished before it is interrupted, be its pixels traced together or one by one.
+/// A tile is interrupted before it is finished, with its pixels traced together or one by one.
 #[test]
 fn an_interrupted_tile_goes_on_within_itself() {
     let lit = "{ bits: [6, 6], light: [6, 6] }";
@@ -341,7 +341,7 @@ fn an_interrupted_tile_goes_on_within_itself() {
             assert!(resumed >= kept + more, "{model:?}: {resumed} after {kept}");
             kept = resumed;
         }
-        // Nor is anything traced again where tiles are others.
+        // Other tiles cause no path to be traced again, either.
         let traced = AtomicU64::new(0);
         let progress = |progress: Progress| {
             if let Progress::Finished(more) = progress {
@@ -363,7 +363,7 @@ fn an_interrupted_tile_goes_on_within_itself() {
     }
 }
 
-/// Paths that a checkpoint has.
+/// Returns the number of paths in a checkpoint.
 fn resumed(scene: &ValidScene, options: &Options<'_>) -> u64 {
     let cancel = AtomicBool::new(true);
     let found = AtomicU64::new(0);
@@ -408,7 +408,7 @@ fn a_kill_takes_two_seconds_of_a_pixel_at_most() {
         }
         let then = traced.load(Ordering::SeqCst);
         std::thread::sleep(Duration::from_secs(2));
-        // What a kill would leave now.
+        // A kill now would leave this file.
         std::fs::copy(&partial.0, &killed.0).unwrap();
         cancel.store(true, Ordering::SeqCst);
         assert!(rendering.join().unwrap().is_err());
@@ -444,7 +444,7 @@ fn what_is_finished_is_not_traced_again() {
     let second = render(&scene, &again).unwrap();
     assert_eq!(second.resumed_paths, second.paths);
     assert_eq!(bits(&first), bits(&second));
-    // Unless it isn't to be resumed.
+    // Unless the render is not to be resumed.
     let anew = Options {
         resume: false,
         ..options

@@ -1,5 +1,5 @@
-//! Pictures whose primary hits are searched for: the same picture where the search does not fail, a
-//! wrong one where it does, and a refusal where there is nothing to search with.
+//! Tests of pictures whose primary hits are searched for: the same picture if the search does not fail, a
+//! wrong one if it does, and an error if there is nothing to search with.
 
 use crate::common::scene::{from_file, written};
 use qrt::core::front;
@@ -21,7 +21,7 @@ fn options(model: Model, visibility: Visibility) -> Options<'static> {
     }
 }
 
-/// So unlikely to fail that it does not.
+/// Returns a search with a negligible failure probability.
 fn surely(guess: Guess) -> Visibility {
     Visibility::Grover {
         failure: 1e-12,
@@ -36,7 +36,7 @@ fn differing(a: &Rendered, b: &Rendered) -> usize {
 
 #[test]
 fn a_search_that_does_not_fail_finds_the_tracers_picture() {
-    // Fixed point loses nothing of this scene, so that however a number comes about it is the same.
+    // Fixed point loses nothing of this scene, so every way to compute a number gives the same.
     let blocks = from_file("tests/scenes/blocks.yaml", &[]);
     let traced = render(&blocks, &options(Model::Fixed, Visibility::Classical)).unwrap();
     assert!(traced.mean().iter().all(|&channel| channel > 0.1));
@@ -52,7 +52,7 @@ fn a_search_that_does_not_fail_finds_the_tracers_picture() {
             assert!(found.queries.iter().all(|&queries| queries > 64 * 8));
         }
     }
-    // Nor does it matter when work is undone, and how later hits are found.
+    // The time of uncomputation and the way to find later hits do not matter, either.
     let circuit = "circuit={ uncompute: scoped, nearest: paper }";
     let blocks = from_file("tests/scenes/blocks.yaml", &[circuit]);
     let found = render(&blocks, &options(Model::Gates, surely(Guess::Coherent))).unwrap();
@@ -61,7 +61,7 @@ fn a_search_that_does_not_fail_finds_the_tracers_picture() {
 
 #[test]
 fn a_search_that_does_not_fail_finds_what_asking_about_all_finds() {
-    // In general a table's rounding is another than a constant's: the oracle itself is the measure.
+    // In general, a table rounds differently from a constant, so the oracle itself is the reference.
     let lit = "sampling.depths=[{ bits: [8, 8] }, { bits: [6, 6], light: [6, 6] }]";
     for sets in [&[][..], &["sampling.depths=[{ bits: [8, 8] }]"], &[lit]] {
         let room = from_file(
@@ -81,7 +81,7 @@ fn a_search_that_does_not_fail_finds_what_asking_about_all_finds() {
         let gates = render(&room, &options(Model::Gates, surely(Guess::Coherent))).unwrap();
         assert!(gates.image == all.image);
         assert_eq!(gates.total_queries(), queries[1]);
-        // And it is the tracer's picture, but for a few paths along edges.
+        // The picture is the tracer's, except for a few paths along edges.
         let traced = render(&room, &options(Model::Fixed, Visibility::Classical)).unwrap();
         let off = all.image.pixels.iter().zip(&traced.image.pixels);
         let off: f64 = off
@@ -304,8 +304,8 @@ sampling: { path_bits: 2, depths: [{ bits: [1, 1] }] }
     std::fs::remove_dir_all(folder).unwrap();
 }
 
-/// The eye on a face, on an edge and at a corner of what it sees, and a film on a face: rays meet none of
-/// the faces on which they start.
+/// The eye is on a face, on an edge and at a corner of the faces that it sees, or the film is on a face: rays
+/// do not meet the faces on which they start.
 #[test]
 fn a_search_does_not_meet_the_face_on_which_the_eye_stands() {
     let cameras = [

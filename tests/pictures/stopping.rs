@@ -1,11 +1,11 @@
-//! `counting.error`: a channel is done once its interval is narrow enough.
+//! Tests of `counting.error`: a channel stops once its interval is narrow enough.
 
 use crate::common::scene::written;
 use qrt::core::scene::Estimator;
 use qrt::core::valid::ValidScene;
 use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
 
-/// A grey floor under a lamp whose blue is a twentieth of its red, and with it the scale of blue.
+/// A grey floor under a lamp whose blue, and with it the scale of blue, is a twentieth of its red.
 const FLOOR: &str = "
 name: floor
 camera: { perspective: { eye: [0, 1, 2], target: [0, 0.2, 0], vfov: 60 } }
@@ -39,7 +39,7 @@ fn exact() -> Rendered {
     counted(1.0, Estimator::Exact, Colour::ThreeRuns)
 }
 
-/// Of all channels, the fraction that is within `error` of the exact picture.
+/// Returns the fraction of all channels within `error` of the exact picture.
 fn share(found: &Rendered, error: f64) -> f64 {
     let exact = exact();
     let pairs = found.image.pixels.iter().zip(&exact.image.pixels);
@@ -50,13 +50,13 @@ fn share(found: &Rendered, error: f64) -> f64 {
     within as f64 / channels.len() as f64
 }
 
-/// Intervals hold what they say, in radiance: 95 %. All of them stop far below their queries.
+/// Intervals in radiance have their coverage, 95 %. All of them stop far below their queries.
 #[test]
 fn what_stops_by_itself_stops_within_the_error() {
     let stopping = Estimator::ALL.iter().copied();
     let mut tried = 0;
     for estimator in stopping.filter(|estimator| estimator.stops_itself()) {
-        // A coin takes 1/error^2 queries, and more than there are for less.
+        // A coin takes 1/error^2 queries, and for a small error more than it has.
         let slow = [
             Estimator::MonteCarlo,
             Estimator::Qcoin,
@@ -84,7 +84,7 @@ fn queries_follow_the_error_and_not_the_limit() {
     };
     let [coarse, fine] = [sum(0.02), sum(0.005)];
     assert!((3.0..6.0).contains(&(fine / coarse)), "{coarse} {fine}");
-    // No interval of blue, whose scale is 0.2, is wider than 0.2; nor can its queries be seen.
+    // No interval of blue, whose scale is 0.2, is wider than 0.2, so it takes almost no queries.
     let blind = counted(10.0, Estimator::AdaptiveBayes, Colour::ThreeRuns);
     let most = blind.queries.iter().max();
     assert!(most < Some(&100), "{most:?}");

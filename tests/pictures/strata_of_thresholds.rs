@@ -1,4 +1,4 @@
-//! Strata of the comparator: what they do to pictures, and what they leave alone.
+//! Tests of strata of the comparator: their effect on pictures, and what they leave unchanged.
 
 use crate::common::scene::written;
 use qrt::core::scene::Estimator;
@@ -8,8 +8,8 @@ use qrt::runtime::render::{Colour, Model, Options, RenderError, Rendered, render
 use qrt::runtime::workers::Workers;
 use std::num::NonZero;
 
-/// A dim wall before the camera, which reflects a little of a bright lamp behind it: colours are
-/// small against their bound, which is that of the lamp.
+/// A dim wall in front of the camera, which reflects a little of a bright lamp behind it: colours are small
+/// against their bound, which is that of the lamp.
 const DIM: &str = "
 name: dim
 camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
@@ -42,7 +42,7 @@ fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>, Vec<[u8; 3]>) {
     (pixels, rendered.queries.clone(), rendered.strata.clone())
 }
 
-/// Root mean square over pixels and channels, of several seeds.
+/// Returns the root mean square error over pixels and channels, of several seeds.
 fn error(strata: &str, colour: Colour) -> f64 {
     let scene = scene(strata);
     let (mut sum, mut count) = (0.0, 0.0);
@@ -105,7 +105,7 @@ fn queries_are_those_that_are_allowed_and_strata_are_told() {
     }
 }
 
-/// Whatever the machine, the threads and the tiles; and after an interruption.
+/// The picture does not depend on the machine, the threads and the tiles, nor on an interruption.
 #[test]
 fn the_same_strata_make_the_same_picture() {
     for strata in ["4", "auto"] {
@@ -145,7 +145,7 @@ fn the_same_strata_make_the_same_picture() {
     }
 }
 
-/// Where a channel is counted at once, it is as if there were no strata.
+/// A channel that is counted at once gives the same result as without strata.
 #[test]
 fn auto_changes_only_what_is_counted_by_strata() {
     let [auto, one] = ["auto", "1"].map(|s| render(&scene(s), &with(Model::Real)).unwrap());

@@ -1,9 +1,9 @@
-//! A faulty scene is refused with an error that names its rule, its place and what to do: one scene
-//! per rule in `tests/bad_scenes`, each with the whole text that its author sees beside it.
+//! Tests that a faulty scene is refused with an error that names its rule, its place and its remedy: one scene
+//! per rule in `tests/bad_scenes`, each with the whole text of the report beside it.
 //!
-//! The first line of a scene names the codes that it must get, in order. Lines `# --set key=value`
-//! stand for the command line. After a deliberate change of the words, `QRT_BLESS=1 cargo test
-//! --test scenes bad_scenes` writes the texts anew.
+//! The first line of a scene names its expected codes, in order. Lines `# --set key=value` stand for the
+//! command line. After a deliberate change of a message, `QRT_BLESS=1 cargo test --test scenes bad_scenes`
+//! writes the texts again.
 
 #![allow(clippy::format_push_string)]
 
@@ -23,7 +23,7 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// The text beside `scene`, or a difference from it.
+/// Compares `text` with the text beside `scene`, or writes it.
 fn compare(scene: &Path, text: &str) -> Result<(), String> {
     let file = scene.with_extension("txt");
     if std::env::var_os("QRT_BLESS").is_some() {
@@ -87,7 +87,7 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
     )
     .unwrap();
 
-    // Sparse: it takes no room, and no time until it is read.
+    // The file is sparse: it takes no disk space, and no time until it is read.
     let large = Path::new(env!("CARGO_TARGET_TMPDIR")).join("large.yaml");
     let file = std::fs::File::create(&large).unwrap();
     file.set_len(front::MAX_BYTES + 1).unwrap();
@@ -100,12 +100,11 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
     std::fs::remove_file(large).unwrap();
 }
 
-/// Codes that no scene file gets from its checks: the first two only scenes that are built in Rust,
-/// the third only a file of 256 MiB, the fourth only millions of faces, the fifth only where the OBJ library disagrees with the
-/// checks before it, the next ones only when the scene's circuit is compiled, then five as warnings, and the last when
-/// the scene is exported.
-/// The unit tests of `valid`, of the OBJ reader and of `oracle`, `inspect_command` and the test
-/// below show them.
+/// Codes that no scene file gets from its checks. The first two occur only in scenes built in Rust, the third
+/// only for a file of 256 MiB, the fourth only for millions of faces, the fifth only if the OBJ library disagrees
+/// with the checks before it, the next ones only when the scene's circuit is compiled, then five as warnings, and
+/// the last when the scene is exported. The unit tests of `valid`, of the OBJ reader and of `oracle`,
+/// `inspect_command` and the test below show them.
 const ELSEWHERE: [&str; 16] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
@@ -125,7 +124,7 @@ const ELSEWHERE: [&str; 16] = [
     codes::NO_COUNTERPART,
 ];
 
-/// A scene without a lamp, and one of mirrors alone: they are as good as without the bits.
+/// A scene without a lamp, and one of mirrors alone, give the same picture as without the bits.
 #[test]
 fn lamps_that_cannot_be_sampled_are_warned_of() {
     let warned = |name: &str, material: &str| {
@@ -155,7 +154,7 @@ sampling: {{ depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8], light: [8, 8] }}] }}
     .unwrap();
 }
 
-/// A scene with a material that is darker one way than the other is rendered as it is written.
+/// A scene with a material that is darker in one direction than in the other is rendered as written.
 #[test]
 fn a_value_that_is_not_reciprocal_is_warned_of() {
     let text = r#"name: one-way
@@ -189,7 +188,7 @@ fn every_code_is_shown_by_some_scene() {
         .iter()
         .filter(|row| !all.contains(&format!("error[{}]", row.code)))
         .filter(|row| !ELSEWHERE.contains(&row.code))
-        // The macros' own: `tests/compile_fail.rs` shows them.
+        // The macros have codes of their own: `tests/compile_fail.rs` shows them.
         .filter(|row| !row.code.starts_with("QRT07") && !row.code.starts_with("QRT08"))
         .collect();
     assert!(unseen.is_empty(), "{unseen:#?}");

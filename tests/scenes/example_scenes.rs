@@ -1,4 +1,4 @@
-//! The scenes that a reader opens first are right, and do what their comments say.
+//! Tests that the example scenes are valid, and that their comments are true.
 
 use qrt_core::front::load;
 use qrt_core::syntax::{Problem, Report};
@@ -19,7 +19,7 @@ fn scene(name: &str, sets: &[&str]) -> Result<ValidScene, Box<Report>> {
     }
 }
 
-/// The scene on a film of 16 x 16 pixels, with 2^8 paths each.
+/// Renders the scene on a film of 16 x 16 pixels, with 2^8 paths each.
 fn small(name: &str, sets: &[&str]) -> Vec<[f64; 3]> {
     let few = ["film.width=16", "film.height=16", "sampling.path_bits=8"];
     let scene = match scene(name, &[&few, sets].concat()) {
@@ -72,7 +72,7 @@ fn every_scene_shows_something() {
                 .all(|c| c.is_finite() && *c >= 0.0)
         );
         match scene(name, &[]) {
-            // Named as its file.
+            // The scene has the name of its file.
             Ok(valid) => assert_eq!(valid.scene().name, name),
             Err(report) => panic!("{report}"),
         }
@@ -131,7 +131,7 @@ fn a_lamp_turned_over_leaves_the_floor_black() {
                      [-0.5, 2, -0.5]]";
     let picture = small("floor-and-light", &[other_way]);
     assert_eq!(picture, vec![[0.0; 3]; 256]);
-    // And its author is told.
+    // The command warns the author.
     let scene = scene("floor-and-light", &[other_way]).unwrap();
     let codes: Vec<&str> = scene.warnings().iter().map(Problem::code).collect();
     assert_eq!(codes, ["QRT0221"]);

@@ -1,15 +1,15 @@
-//! The fuzzer's targets on the corpora of this repository, and on changes of them that are the same each time.
+//! Runs the fuzzer's targets on the corpora of this repository, and on mutations of them that are the same each time.
 
 use crate::numbers::Numbers;
 use crate::targets;
 use std::fs;
 use std::path::Path;
 
-/// The files of these folders of the repository.
+/// Returns the files of `folders` in the repository.
 fn corpus(folders: &[&str], ends: &[&str]) -> Vec<Vec<u8>> {
     let mut paths = Vec::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    // The fuzzer's own package runs this, too.
+    // The fuzzer's own package runs this test, too.
     let root = if root.ends_with("fuzz") {
         root.join("..")
     } else {
@@ -33,7 +33,7 @@ fn corpus(folders: &[&str], ends: &[&str]) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// Calls `target` on every seed, and so many times on one with a few bytes changed, left out, or taken from another.
+/// Calls `target` on every seed, and `times` times on one with a few bytes changed, left out, or taken from another.
 fn tried(target: fn(&[u8]), seeds: &[Vec<u8>], times: usize) {
     for seed in seeds {
         target(seed);
@@ -103,7 +103,7 @@ fn openqasm() {
     let mut seeds: Vec<Vec<u8>> = (0..100)
         .map(|_| (0..80).map(|_| numbers.below(256) as u8).collect())
         .collect();
-    // The sum of both inputs, and all are called by a word of the language.
+    // The sum of both inputs, with a word of the language as the name of all registers.
     for word in ["input", "bit", "swap", "work", "in", "measure"] {
         let name = [&[word.len() as u8][..], word.as_bytes()].concat();
         let sum = vec![0, 3, 4, 0, 0, 0, 3, 0, 1, 0, 3, 0, 1];
@@ -112,7 +112,7 @@ fn openqasm() {
     tried(targets::openqasm, &seeds, 800);
 }
 
-/// A tile of a pixel, and a part of one.
+/// Returns a tile of one pixel.
 fn tile(x: u8, y: u8) -> Vec<u8> {
     let place = [0, 0, 0, 0, x, 0, 0, 0, y, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
     [&place[..], &[7; 83]].concat()
@@ -139,7 +139,7 @@ fn checkpoints() {
     tried(targets::checkpoint, &seeds, 1000);
 }
 
-/// Headers of any words, bodies of headers, and files.
+/// Headers of arbitrary words, bodies of headers, and files.
 #[test]
 fn headers_of_checkpoints() {
     let body = targets::header_of_the_render();

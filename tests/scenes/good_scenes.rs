@@ -1,5 +1,5 @@
-//! Good scenes are accepted, print to YAML that reads back as the same scene, and keep their
-//! fingerprint however they are written.
+//! Tests that good scenes are accepted, print to YAML that reads back as the same scene, and keep their
+//! fingerprint in every way to write them.
 
 #![allow(clippy::format_push_string)]
 
@@ -207,7 +207,7 @@ fn fingerprints_see_meshes() {
     );
 }
 
-/// Scenes as a program may build them: any text, any finite number.
+/// Generates scenes as a program may build them: any text, any finite number.
 fn scenes() -> impl Strategy<Value = Scene> {
     let text = "\\PC{1,12}";
     let number = prop_oneof![

@@ -1,5 +1,5 @@
-//! Nothing panics or hangs on any text: a mutated scene is either accepted or refused with at least
-//! one error, and every error can be rendered.
+//! Tests that no text causes a panic or an endless run: a mutated scene is either accepted or refused with at
+//! least one error, and every error can be rendered.
 
 #![allow(clippy::format_collect)]
 
@@ -9,7 +9,7 @@ use qrt::core::front;
 use qrt::core::syntax::Source;
 use std::time::{Duration, Instant};
 
-/// Reads a text and renders what is wrong with it.
+/// Parses a text and renders its errors.
 fn judge(text: &str, sets: &[String]) {
     match front::parse(text, "mutated.yaml", sets, "tests/good_scenes".as_ref()) {
         Ok(loaded) => assert!(loaded.valid.scene().film.width > 0),
@@ -18,7 +18,7 @@ fn judge(text: &str, sets: &[String]) {
             for colour in [false, true] {
                 assert!(report.render(colour).contains("error"));
             }
-            // What a scene says must not reach the terminal as an order to it.
+            // The text of a scene must not reach the terminal as a control sequence.
             let text = report.render(false);
             assert!(
                 !text.contains(|c: char| c.is_control() && c != '\n'),
@@ -43,7 +43,7 @@ fn texts() -> Vec<String> {
     texts
 }
 
-/// Pieces that have a meaning somewhere.
+/// Pieces of text that have a meaning somewhere.
 const PIECES: &[&str] = &[
     "\t",
     "\r",
@@ -238,7 +238,7 @@ proptest! {
     }
 }
 
-/// Texts that are cheap to write and dear to read for a careless reader.
+/// Texts that are cheap to write and expensive to read for a careless reader.
 #[test]
 fn bombs_are_refused_in_time() {
     let scene = std::fs::read_to_string("tests/good_scenes/least.yaml").unwrap();

@@ -1,7 +1,7 @@
-//! The JSON Schema that editors use says what the types say: every good scene is valid by it, and
-//! whatever is done to a scene's structure, both accept it or both refuse it.
+//! Tests that the JSON Schema for editors agrees with the types: every good scene is valid under it, and
+//! for every change of a scene's structure, both accept it or both refuse it.
 //!
-//! The judge is an independent validator, which reads scenes by an independent YAML reader.
+//! An independent validator applies the schema, and reads scenes with an independent YAML reader.
 
 #![allow(clippy::format_push_string)]
 
@@ -33,7 +33,7 @@ impl Judge {
     }
 }
 
-/// Codes of what relates values to each other, or is about files: beyond a schema.
+/// Codes of errors that relate values to each other, or concern files: a schema cannot express them.
 const RELATIONS: [&str; 20] = [
     codes::PRIMARY_LIGHT,
     codes::FEW_LIGHT_BITS,
@@ -58,7 +58,7 @@ const RELATIONS: [&str; 20] = [
 ];
 
 fn is_relation(code: &str) -> bool {
-    // Meshes, expressions and BSDFs are judged by what is in them.
+    // The contents of meshes, expressions and BSDFs decide, not the structure.
     let of_contents = ["QRT032", "QRT033", "QRT034", "QRT04"];
     RELATIONS.contains(&code) || of_contents.iter().any(|start| code.starts_with(start))
 }
@@ -115,10 +115,10 @@ fn bad_scenes_are_refused_where_a_schema_can_tell() {
         let text = String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned();
         let head = text.trim_start_matches('\u{feff}').lines().next().unwrap();
         let code = &head[2..9];
-        // What the other reader reads otherwise or not at all is not the schema's to judge.
+        // The schema cannot judge texts that the other reader reads differently or not at all.
         let structural = code >= "QRT0120" && !text.contains("# --set");
         let of_yaml = [codes::UNREPRESENTABLE, codes::NOT_FINITE];
-        // What is wrong with a mesh is in its file.
+        // A mesh's errors are in its file.
         let of_files = text.contains("- mesh:");
         if !structural || of_files || of_yaml.contains(&code) || is_relation(code) {
             continue;
@@ -131,7 +131,7 @@ fn bad_scenes_are_refused_where_a_schema_can_tell() {
     assert!(refused >= 30, "{refused}");
 }
 
-/// What a value can be replaced by; `null` stands for the key without a value.
+/// Returns the replacements of a value; `null` stands for the key without a value.
 fn replacements() -> Vec<Value> {
     let mut values = vec![
         json!(null),
@@ -158,7 +158,7 @@ fn replacements() -> Vec<Value> {
     values
 }
 
-/// Every way to change one thing: replace a value, drop a key, add a key, double an element.
+/// Returns every way to change one thing: replace a value, drop a key, add a key, double an element.
 fn mutations(value: &Value) -> Vec<Value> {
     let mut out = replacements();
     match value {
@@ -230,7 +230,7 @@ fn whatever_is_changed_both_accept_or_both_refuse() {
     for changed in plain.chain(mutations(&least)).chain(with_cloth) {
         let text = changed.to_string();
         let by_schema = judge.accepts(&changed);
-        // JSON is YAML, so that the scene can be given as it stands.
+        // JSON is YAML, so the parser takes the scene as it is.
         let by_types = match front::parse(&text, "changed.json", &[], "tests/good_scenes".as_ref())
         {
             Ok(_) => true,

@@ -1,5 +1,5 @@
-//! Through serde, scenes have the keys and the shapes that they have in YAML, in any of its formats;
-//! what is wrong is told with its code and its path.
+//! Tests that scenes through serde have the same keys and shapes as in YAML, in any of serde's formats, and
+//! that errors have their code and their path.
 
 use crate::common::scene::from_file;
 use qrt::core::scene::{
@@ -55,7 +55,7 @@ fn scenes_come_back_from_yaml_and_from_json() {
             scene,
             "{yaml}"
         );
-        // It is a scene file like others.
+        // The printed text is a scene file like others.
         let loaded = Scene::from_yaml(&yaml, "printed.yaml");
         assert_eq!(loaded.unwrap_or_else(|report| panic!("{report}")), scene);
         let json = serde_json::to_string(&scene).unwrap();

@@ -1,5 +1,5 @@
-//! Scenes are read as the standard YAML reader reads them: an independent one, `yaml_serde`, finds
-//! the same values in every good scene and in documents made at random.
+//! Tests that scenes are read like the standard YAML reader reads them: an independent one, `yaml_serde`,
+//! finds the same values in every good scene and in random documents.
 
 #![allow(clippy::format_push_string)]
 
@@ -25,7 +25,7 @@ fn same(node: &Node, other: &Other) -> bool {
             (Kind::Number(a), Other::Number(number)) => number
                 .as_f64()
                 .is_some_and(|b| a == b || a.is_nan() && b.is_nan()),
-            // Beyond 64 bits, the other reader takes it for text; here it becomes an error.
+            // Beyond 64 bits, the other reader takes a number for text; here it becomes an error.
             (Kind::Number(a), Other::String(text)) => a.is_infinite() && scalar.text == *text,
             (Kind::Bool(a), Other::Bool(b)) => a == *b,
             (Kind::Text, Other::String(text)) => scalar.text == *text,
@@ -37,7 +37,7 @@ fn same(node: &Node, other: &Other) -> bool {
         (Value::Map(entries), Other::Mapping(others)) => {
             entries.len() == others.len()
                 && entries.iter().all(|entry| {
-                    // Keys are texts here, whatever they look like.
+                    // Keys are texts here, even if they look like other values.
                     let find = |(key, _): &(&Other, &Other)| match key {
                         Other::String(key) => *key == entry.key,
                         Other::Number(key) => key.to_string() == entry.key,
@@ -84,7 +84,7 @@ enum Document {
 }
 
 impl Document {
-    /// Writes the document with `gap` between indicators and what follows them.
+    /// Writes the document with `gap` after each indicator.
     fn write(&self, out: &mut String, gap: &str, indent: usize, flow: bool) {
         match self {
             Self::Scalar(text) => out.push_str(text),
@@ -209,7 +209,7 @@ fn tabs_separate_as_spaces_do() {
     }
 }
 
-/// Tabs that YAML does not allow are refused where they stand, with what to write.
+/// Tabs that YAML does not allow are refused at their place, with the remedy.
 #[test]
 fn tabs_that_indent_are_refused() {
     for (text, line, help) in [

@@ -1,4 +1,4 @@
-//! The crates, each as its documentation shows it.
+//! The crates to compare with, each used as its documentation shows.
 
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
@@ -19,13 +19,13 @@ use std::time::Duration;
 pub struct Triangle {
     corners: [Vector3<f64>; 3],
     label: u32,
-    /// Its plane, on which no ray that leaves it can meet it.
+    /// The triangle's plane: a ray that starts on it cannot meet it.
     plane: u32,
     node: usize,
 }
 
 impl Triangle {
-    /// All triangles of `geometry`.
+    /// Returns all triangles of `geometry`.
     pub fn all(geometry: &Geometry) -> Vec<Self> {
         let mut triangles = Vec::new();
         for (label, corners) in geometry.corners.iter().enumerate() {
@@ -42,7 +42,7 @@ impl Triangle {
         triangles
     }
 
-    /// The distance at which a ray meets it from either side: Möller and Trumbore's test.
+    /// Returns the distance at which a ray meets it from either side: Möller and Trumbore's test.
     fn distance(&self, ray: &bvh::ray::Ray<f64, 3>) -> f64 {
         let [a, b, c] = &self.corners;
         let (ab, ac) = (b - a, c - a);
@@ -109,14 +109,14 @@ fn single_precision(ray: &SingleRay) -> Ray {
     Ray::new_inf(single(ray.origin), single(ray.direction))
 }
 
-/// `obvhs`, eight children a node.
+/// Hierarchy of `obvhs` with eight children a node.
 pub struct Cwbvh {
     tree: CwBvh,
     faces: Ordered,
 }
 
 impl Cwbvh {
-    /// Over `triangles`, built with most care.
+    /// Builds a hierarchy over `triangles` with the slowest, most careful settings.
     pub fn new(triangles: &[Triangle]) -> Self {
         let singles = Triangle::singles(triangles);
         let care = BvhBuildParams::very_slow_build();
@@ -125,7 +125,7 @@ impl Cwbvh {
         Self { tree, faces }
     }
 
-    /// The label of the nearest face of each ray.
+    /// Returns the label of the nearest face of each ray.
     pub fn find(&self, rays: &[SingleRay]) -> Vec<u32> {
         let nearest = |ray: &SingleRay| {
             let mut hit = RayHit::none();
@@ -141,14 +141,14 @@ impl Cwbvh {
     }
 }
 
-/// `obvhs`, two children a node.
+/// Hierarchy of `obvhs` with two children a node.
 pub struct Halves {
     tree: Bvh2,
     faces: Ordered,
 }
 
 impl Halves {
-    /// Over `triangles`, built with most care.
+    /// Builds a hierarchy over `triangles` with the slowest, most careful settings.
     pub fn new(triangles: &[Triangle]) -> Self {
         let singles = Triangle::singles(triangles);
         let care = BvhBuildParams::very_slow_build();
@@ -157,7 +157,7 @@ impl Halves {
         Self { tree, faces }
     }
 
-    /// The label of the nearest face of each ray.
+    /// Returns the label of the nearest face of each ray.
     pub fn find(&self, rays: &[SingleRay]) -> Vec<u32> {
         let nearest = |ray: &SingleRay| {
             let mut hit = RayHit::none();
@@ -189,22 +189,22 @@ impl BHShape<f64, 3> for Triangle {
     }
 }
 
-/// `bvh` in double precision.
+/// Hierarchy of `bvh` in double precision.
 pub struct Doubles {
     tree: bvh::bvh::Bvh<f64, 3>,
     triangles: Vec<Triangle>,
 }
 
 impl Doubles {
-    /// A hierarchy over `triangles`.
+    /// Builds a hierarchy over `triangles`.
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut triangles = triangles.to_vec();
         let tree = bvh::bvh::Bvh::build(&mut triangles);
         Self { tree, triangles }
     }
 
-    /// The label of the nearest face of each ray: boxes from the nearest on, until they begin
-    /// beyond what was found.
+    /// Returns the label of the nearest face of each ray. Visits boxes from the nearest on, until they begin
+    /// beyond the nearest hit.
     pub fn find_in_order(&self, rays: &[SingleRay]) -> Vec<u32> {
         let nearest = |single: &SingleRay| {
             let ray = double_precision(single);
@@ -221,7 +221,7 @@ impl Doubles {
         rays.iter().map(nearest).collect()
     }
 
-    /// The label of the nearest face of each ray: all boxes that it meets.
+    /// Returns the label of the nearest face of each ray. Visits all boxes that the ray meets.
     pub fn find_in_all(&self, rays: &[SingleRay]) -> Vec<u32> {
         let nearest = |single: &SingleRay| {
             let ray = double_precision(single);

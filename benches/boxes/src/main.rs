@@ -1,4 +1,4 @@
-//! Our hierarchy of boxes against crates that have one, on the rays of the same paths.
+//! Compares qrt's hierarchy of boxes with crates that have one, on the rays of the same paths.
 //!
 //! `cargo run --release --manifest-path benches/boxes/Cargo.toml` prints million rays a second of
 //! one core that find the nearest of 65,536 triangles, and the fraction of rays for which a crate's
@@ -26,10 +26,10 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Best of so many runs, in turns: the machine's noise only ever slows.
+/// Number of runs, in turns, of which the best counts: the machine's noise only ever slows.
 const RUNS: usize = 15;
 
-/// What finds the label of the nearest face of each ray.
+/// A function that finds the label of the nearest face of each ray.
 type Find<'a> = Box<dyn Fn(&[SingleRay]) -> Vec<u32> + 'a>;
 
 fn main() -> ExitCode {
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether the first of `contenders` is the fastest.
+/// True if the first of `contenders` is the fastest.
 fn compare(contenders: &[(&str, Find)], rays: &[SingleRay]) -> bool {
     let mut best = vec![f64::INFINITY; contenders.len()];
     let mut found = vec![Vec::new(); contenders.len()];

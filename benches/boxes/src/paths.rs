@@ -1,4 +1,4 @@
-//! The rays of a scene's paths, one path at a time, in plain numbers.
+//! Rays of a scene's paths, one path at a time, in plain numbers.
 
 use qrt::core::expr::Function;
 use qrt::core::sampling::{PathPoints, cell_centre};
@@ -8,16 +8,16 @@ use qrt::core::valid::ValidScene;
 use qrt::runtime::machines::{Real, SingleRay};
 use std::cell::RefCell;
 
-/// Rays by the order in which paths have them.
+/// Rays in the order of the paths.
 #[derive(Default)]
 pub struct Rays {
-    /// The rays from the camera.
+    /// Rays from the camera.
     pub primary: Vec<SingleRay>,
-    /// The rays from a surface.
+    /// Rays from a surface.
     pub bounced: Vec<SingleRay>,
 }
 
-/// The rays of all paths of a square film.
+/// Returns the rays of all paths of a square film.
 pub fn rays(scene: &ValidScene, real: &Real, side: u32) -> Rays {
     let points = PathPoints::new(&scene.scene().sampling).expect("a valid scene's sequence exists");
     let recorder = Recorder {
@@ -37,7 +37,7 @@ pub fn rays(scene: &ValidScene, real: &Real, side: u32) -> Rays {
     recorder.rays.into_inner()
 }
 
-/// Keeps every ray that it is asked about.
+/// Records every ray for which the tracer requests the nearest hit.
 struct Recorder<'a> {
     real: &'a Real,
     rays: RefCell<Rays>,
@@ -74,7 +74,7 @@ impl<'p> Nearest<Path<'p>> for Recorder<'_> {
     }
 }
 
-/// One path.
+/// Arithmetic of one path in plain numbers.
 struct Path<'a> {
     points: &'a PathPoints,
     pixel: [u32; 2],

@@ -1,14 +1,14 @@
-//! The bibliography: what a citation in a chapter says to those who point at it or reach it by
-//! keyboard.
+//! The bibliography: the tooltips of citations in a chapter, for readers who point at one or reach it
+//! by keyboard.
 
 use qrt_drawing::escaped;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The page that has it, without an extension.
+/// Name of the page with the bibliography, without an extension.
 const PAGE: &str = "related-work";
 
-/// What each key of the bibliography stands for.
+/// The entries of the bibliography, by key.
 #[derive(Default)]
 pub(crate) struct Bibliography(BTreeMap<String, String>);
 
@@ -29,8 +29,8 @@ impl Bibliography {
         Self(text.lines().filter_map(entry).collect())
     }
 
-    /// The citation that a link is, as HTML: `target` is where it leads, seen from a page from
-    /// which `root` leads to the book's. None for a link that cites nothing.
+    /// Returns the HTML of a link that is a citation. `target` is the link's target, on the page `page`;
+    /// `root` leads from that page to the book's root. `None` for a link that is not a citation.
     ///
     /// # Errors
     /// A key that the bibliography lacks.
@@ -57,7 +57,7 @@ impl Bibliography {
     }
 }
 
-/// Markdown's words, without its marks and without the targets of links.
+/// Returns the words of `markdown`, without its marks and without the targets of links.
 fn plain(markdown: &str) -> String {
     let mut out = String::new();
     let mut rest = markdown;

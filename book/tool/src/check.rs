@@ -12,32 +12,32 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Pages are smaller than this, in bytes.
+/// Limit on the size of a page, in bytes.
 const PAGE: usize = 320_000;
 
-/// WebAssembly should be smaller than this, in bytes, by a part of its name: the playground's, and any figure's. It is
-/// where all of its tools are installed; where some are missing, a larger one serves as well.
+/// Limits on the size of WebAssembly, in bytes, by a part of its name: the playground's, and any figure's. Larger
+/// files give a note only: they result where some of the tools that shrink them are missing.
 const WASM: [(&str, usize); 2] = [("playground", 5_000_000), ("", 500_000)];
 
-/// What the check has looked at.
+/// The result of the check.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
-    /// What is wrong.
+    /// All faults.
     pub(crate) complaints: Vec<Complaint>,
-    /// How many pages there are.
+    /// Number of pages.
     pub(crate) pages: usize,
-    /// How many links and the like they have.
+    /// Number of references on them.
     pub(crate) links: usize,
     /// The largest page, and its size.
     pub(crate) largest: (String, usize),
-    /// What could be better and is no fault.
+    /// Remarks that are no faults.
     pub(crate) notes: Vec<String>,
 }
 
-/// A reference from one file to something.
+/// A reference from one file to another, or to an address.
 struct Reference {
     target: String,
-    /// Whether a reader follows it, rather than the browser by itself.
+    /// True if a reader follows it, false if the browser loads it by itself.
     followed: bool,
 }
 
@@ -48,7 +48,7 @@ struct Page {
     playground: bool,
 }
 
-/// Checks the book in a folder; `seen` is what that folder is called in complaints.
+/// Checks the book in `folder`; complaints name that folder `seen`.
 pub(crate) fn check(folder: &Path, seen: &str) -> Result<Report> {
     let mut report = Report::default();
     let mut pages: BTreeMap<String, Page> = BTreeMap::new();
@@ -122,7 +122,7 @@ pub(crate) fn check(folder: &Path, seen: &str) -> Result<Report> {
     Ok(report)
 }
 
-/// Whether a reference leads somewhere.
+/// Checks that a reference has a target.
 fn resolve(
     from: &str,
     reference: &Reference,
@@ -180,7 +180,7 @@ fn resolve(
     }
 }
 
-/// A path relative to a file, from the book's root; none if it leads out of the book.
+/// Joins a path to the file that it is relative to; `None` if it leads out of the book.
 fn joined(from: &str, path: &str) -> Option<String> {
     let mut parts: Vec<&str> = from.split('/').collect();
     parts.pop();
@@ -196,7 +196,7 @@ fn joined(from: &str, path: &str) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// Undoes `%20` and the like.
+/// Decodes `%20` and similar escapes.
 pub(crate) fn decoded(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -212,7 +212,7 @@ pub(crate) fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// What HTML or SVG refers to, and can be referred to by.
+/// Returns the references of HTML or SVG, and its ids.
 fn parse(text: &str) -> Page {
     let queue = BufferQueue::default();
     queue.push_back(StrTendril::from_slice(text));
@@ -289,7 +289,7 @@ impl TokenSink for Sink {
     }
 }
 
-/// What a style sheet loads.
+/// Returns the references of a style sheet.
 fn style_sheet(text: &str) -> Page {
     Page {
         references: urls(text),
@@ -297,7 +297,7 @@ fn style_sheet(text: &str) -> Page {
     }
 }
 
-/// The targets of `url(...)` and `@import "..."`.
+/// Returns the targets of `url(...)` and `@import "..."`.
 fn urls(css: &str) -> Vec<Reference> {
     let load = |target: &str| Reference {
         target: target.trim().trim_matches(['"', '\'']).to_owned(),
@@ -317,8 +317,8 @@ fn urls(css: &str) -> Vec<Reference> {
     urls.chain(imports).collect()
 }
 
-/// What a script refers to: the table of contents' links, the search index's pages, and whatever
-/// our own scripts name on other hosts.
+/// Returns the references of a script: the table of contents' links, the search index's pages, and the
+/// addresses on other hosts in our own scripts.
 fn script(name: &str, text: &str) -> Page {
     let file = name.rsplit('/').next().unwrap_or(name);
     let mut page = Page::default();
@@ -342,7 +342,7 @@ fn script(name: &str, text: &str) -> Page {
                 text.split(scheme)
                     .skip(1)
                     .filter_map(|rest| rest.split(['"', '\'', '`', ' ', '\n']).next())
-                    // Names of namespaces look like addresses; nobody asks for them.
+                    // Names of namespaces look like addresses, but browsers do not load them.
                     .filter(|rest| !rest.starts_with("www.w3.org/"))
                     .map(|rest| Reference {
                         target: format!("{scheme}{rest}"),
@@ -358,7 +358,7 @@ fn script(name: &str, text: &str) -> Page {
 mod tests {
     use super::*;
 
-    /// What is wrong with a book of these files.
+    /// Returns the report on a book of `files`.
     fn reported(files: &[(&str, &str)]) -> Report {
         let folder = tempfile::tempdir().unwrap();
         let files: BTreeMap<String, &str> = files

@@ -1,20 +1,20 @@
-//! What is wrong with the book, said at its place.
+//! Faults of the book, with their places.
 
 use std::fmt;
 
-/// Something that an author, or whoever looks after the build, has to mend.
+/// A fault that an author, or the maintainer of the build, has to mend.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Complaint {
     /// The file, as seen from the repository's root.
     pub(crate) file: String,
-    /// The line, counted from 1; 0 where the whole file is meant.
+    /// The line, counted from 1; 0 for the whole file.
     pub(crate) line: usize,
-    /// What is wrong there, and what to write instead.
+    /// The fault, and its remedy.
     pub(crate) message: String,
 }
 
 impl Complaint {
-    /// A complaint about one line of a file.
+    /// Creates a complaint about one line of a file.
     pub(crate) fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
         Self {
             file: file.to_owned(),
@@ -23,7 +23,7 @@ impl Complaint {
         }
     }
 
-    /// A complaint about a whole file.
+    /// Creates a complaint about a whole file.
     pub(crate) fn about(file: &str, message: impl Into<String>) -> Self {
         Self::at(file, 0, message)
     }

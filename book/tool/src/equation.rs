@@ -1,18 +1,18 @@
 //! Equations of the paper: the fenced blocks that restate them, and their index.
 //!
-//! It needs nothing else of the tool than complaints: the book's tests include this file.
+//! It needs only complaints from the tool: the book's tests include this file.
 
 use crate::complaint::Complaint;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-/// The paper's equations are numbered 1 to this.
+/// Number of the paper's equations, from 1.
 pub(crate) const COUNT: u32 = 28;
 
-/// The paper's errata are called so.
+/// Letters of the paper's errata.
 pub(crate) const ERRATA: RangeInclusive<char> = 'a'..='k';
 
-/// A place in the repository's sources: a file, and what it defines.
+/// A place in the repository's sources: a file, and a symbol that it defines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Place {
     /// The file, as seen from the repository's root.
@@ -26,23 +26,23 @@ pub(crate) struct Place {
 pub(crate) struct Equation {
     /// Its number in the paper.
     pub(crate) number: u32,
-    /// It, in LaTeX.
+    /// The formula, in LaTeX.
     pub(crate) tex: String,
-    /// What it is, as Markdown of one line.
+    /// A description, as Markdown of one line.
     pub(crate) what: String,
-    /// Where the code is.
+    /// Places of its code.
     pub(crate) code: Vec<Place>,
-    /// Where it is tested.
+    /// Places of its tests.
     pub(crate) test: Vec<Place>,
     /// The letter of the erratum about it.
     pub(crate) erratum: Option<char>,
-    /// What the paper prints in its place, in LaTeX; empty where that is the same.
+    /// Formula that the paper prints in its place, in LaTeX; empty if it is the same.
     pub(crate) printed: String,
 }
 
 impl Equation {
-    /// Reads a block: `info` is what follows the fence, `body` the lines within, of which the first
-    /// is line `line` of `file`.
+    /// Parses a block: `info` is the text after the fence, `body` the lines within, of which the first is
+    /// line `line` of `file`.
     pub(crate) fn parse(
         info: &str,
         body: &[&str],
@@ -130,7 +130,7 @@ impl Equation {
         complaints
     }
 
-    /// Sets what a key says, unless it is one of those that were `said` before.
+    /// Sets the value of a key, unless the key is in `said`, the keys before it.
     fn set<'a>(
         &mut self,
         key: &'a str,
@@ -167,7 +167,7 @@ impl Equation {
     }
 }
 
-/// `PATH#SYMBOL`, several of them separated by commas.
+/// Parses `PATH#SYMBOL`, or several separated by commas.
 fn places(value: &str) -> Result<Vec<Place>, String> {
     value
         .split(',')
@@ -181,7 +181,7 @@ fn places(value: &str) -> Result<Vec<Place>, String> {
         .collect()
 }
 
-/// Which numbers are missing, as a complaint says it.
+/// Returns the missing numbers, in the words of a complaint.
 pub(crate) fn missing(present: impl Iterator<Item = u32>) -> Option<String> {
     let present: Vec<u32> = present.collect();
     let missing: Vec<String> = (1..=COUNT)

@@ -1,10 +1,10 @@
-//! Writing generated files so that what has not changed is not touched.
+//! Writes generated files, and leaves unchanged files untouched.
 
 use anyhow::{Context as _, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder hold these files and no others. A file that holds them already keeps its time.
+/// Makes `folder` hold the files `wanted` and no others. A file that does not change keeps its time.
 pub(crate) fn write_all<T: AsRef<[u8]>>(folder: &Path, wanted: &BTreeMap<String, T>) -> Result<()> {
     for file in all(folder)? {
         let name = relative(folder, &file);
@@ -28,8 +28,8 @@ pub(crate) fn write_all<T: AsRef<[u8]>>(folder: &Path, wanted: &BTreeMap<String,
     Ok(())
 }
 
-/// All files below a folder, in order of their names; none if there is no such folder. What is
-/// behind a link to a folder is elsewhere: it is not below this one, and may be above it.
+/// Returns all files below a folder, in order of their names; none if the folder does not exist. Links
+/// to folders are not followed, because they may lead anywhere, even to a folder above.
 pub(crate) fn all(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -51,7 +51,7 @@ pub(crate) fn all(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// A file's path from a folder, with `/` between its parts.
+/// Returns a file's path relative to a folder, with `/` between its parts.
 pub(crate) fn relative(folder: &Path, file: &Path) -> String {
     file.strip_prefix(folder)
         .unwrap_or(file)
@@ -94,7 +94,7 @@ mod tests {
         let found = all(&folder).unwrap();
         let found: Vec<String> = found.iter().map(|file| relative(&folder, file)).collect();
         assert_eq!(found, ["a/file", "one"]);
-        // What is elsewhere stays.
+        // A file outside the folder, behind a link, stays.
         write_all::<&str>(&folder, &BTreeMap::new()).unwrap();
         assert!(other.join("kept").exists() && !folder.join("a/file").exists());
     }

@@ -1,7 +1,7 @@
-//! Formulas: LaTeX to HTML and MathML, by KaTeX, while the book is built.
+//! Formulas: KaTeX converts LaTeX to HTML and MathML while the book is built.
 //!
-//! KaTeX is JavaScript, and runs in QuickJS. A formula takes milliseconds, so that those of the last
-//! build are kept in a file.
+//! KaTeX is JavaScript, and runs in QuickJS. A formula takes milliseconds, so the formulas of the last
+//! build are cached in a file.
 
 use anyhow::{Context as _, Result, anyhow};
 use rquickjs::{CatchResultExt as _, CaughtError, Context, Function, Runtime};
@@ -9,25 +9,24 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 
-/// KaTeX 0.19.1, as npm has it. Its style sheet and fonts, of the same version, are in
-/// `book/src/katex`.
+/// KaTeX 0.19.1, as on npm. Its style sheet and fonts, of the same version, are in `book/src/katex`.
 const KATEX: &str = include_str!("../katex/katex.min.js");
 
-/// What is asked of KaTeX: pictures for eyes, MathML for screen readers, and an error for whatever
-/// LaTeX would not take. The MathML is without the source text, which would make pages larger and
-/// turn up in searches.
+/// The script that calls KaTeX: for visual HTML, MathML for screen readers, and an error for
+/// everything that LaTeX would refuse. It removes the source text from the MathML, which would make
+/// pages larger and appear in searches.
 const RENDER: &str = r#"(tex, display) => katex
     .renderToString(tex, { displayMode: display, output: "htmlAndMathml", strict: "error" })
     .replace(/<annotation [^>]*>[^<]*<\/annotation>/, "")
     .replaceAll(";\"", "\"")"#;
 
-/// Renders formulas, and remembers them.
+/// Renders formulas, and caches them.
 pub(crate) struct Formulas {
-    /// Made when the first formula comes that is not known yet.
+    /// Created for the first formula that is not in the cache.
     engine: Option<Engine>,
     known: BTreeMap<String, String>,
     used: BTreeMap<String, String>,
-    /// Where formulas are kept from build to build.
+    /// File of the cache, which later builds read.
     kept: Option<PathBuf>,
 }
 
@@ -37,7 +36,7 @@ struct Engine {
 }
 
 impl Formulas {
-    /// Starts with nothing known, and keeps nothing.
+    /// Creates an empty cache without a file.
     pub(crate) fn new() -> Self {
         Self {
             engine: None,
@@ -47,7 +46,7 @@ impl Formulas {
         }
     }
 
-    /// Starts with what an earlier build kept in this folder, if the same KaTeX made it.
+    /// Loads the cache of an earlier build from `folder`, if the same KaTeX made it.
     pub(crate) fn kept_in(folder: &Path) -> Self {
         let mut hasher = DefaultHasher::new();
         (KATEX, RENDER).hash(&mut hasher);
@@ -63,7 +62,7 @@ impl Formulas {
         }
     }
 
-    /// The HTML of a formula; the error is KaTeX's message.
+    /// Returns the HTML of a formula; the error is KaTeX's message.
     pub(crate) fn render(&mut self, tex: &str, display: bool) -> Result<String> {
         let key = format!("{}{tex}", if display { "$$" } else { "$" });
         if let Some(html) = self.used.get(&key).or_else(|| self.known.get(&key)) {
@@ -80,7 +79,7 @@ impl Formulas {
         Ok(html)
     }
 
-    /// Keeps the formulas that were asked for, for the next build.
+    /// Saves the formulas that this build used, for the next build.
     pub(crate) fn keep(&self) -> Result<()> {
         let Some(file) = &self.kept else {
             return Ok(());
@@ -89,7 +88,7 @@ impl Formulas {
             return Ok(());
         }
         if let Some(folder) = file.parent() {
-            // What another KaTeX made goes.
+            // Remove the caches of other versions of KaTeX.
             let _ = std::fs::remove_dir_all(folder);
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("cannot make the folder {}", folder.display()))?;
@@ -134,7 +133,7 @@ impl Engine {
     }
 }
 
-/// KaTeX underlines what is to blame with combining characters, which few terminals show.
+/// Removes the combining characters with which KaTeX underlines an error: few terminals show them.
 fn plain(message: &str) -> String {
     message
         .chars()

@@ -1,6 +1,6 @@
-//! Small things about HTML that several modules need.
+//! Small functions on HTML that several modules need.
 
-/// The same HTML on one line, with nothing in it that Markdown would read as its own.
+/// Returns the same HTML on one line, with nothing in it that Markdown would interpret.
 ///
 /// Between tags, each character that means something in Markdown becomes a character reference;
 /// a `|`, which would end a table's cell, does so everywhere.
@@ -25,7 +25,7 @@ pub(crate) fn within_markdown(html: &str) -> String {
             {
                 reference(&mut safe, c);
             }
-            // Smart punctuation makes dashes and an ellipsis of these.
+            // Smart punctuation would turn these into dashes or an ellipsis.
             '-' | '.' if !in_tag && previous == c => reference(&mut safe, c),
             _ => safe.push(c),
         }

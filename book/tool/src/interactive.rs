@@ -1,4 +1,4 @@
-//! Interactive figures: their WebAssembly is built if it can be, and put where mdBook finds it.
+//! Interactive figures: builds their WebAssembly if it can, and copies it for mdBook.
 
 use crate::complaint::Complaint;
 use anyhow::{Context as _, Result};
@@ -7,10 +7,10 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What the script that builds the WebAssembly exits with if there is nothing to build it with.
+/// Exit status of the script that builds the WebAssembly, if its tools are missing.
 const NO_TOOLS: i32 = 3;
 
-/// The WebAssembly's names, in `interactive/dist` and in the book: one for each figure.
+/// Names of the WebAssembly files, in `interactive/dist` and in the book: one for each figure.
 const WASM: [&str; 5] = [
     "qrt_circuit.wasm",
     "qrt_counting.wasm",
@@ -19,14 +19,14 @@ const WASM: [&str; 5] = [
     "qrt_playground.wasm",
 ];
 
-/// What an editor of scenes suggests from: its folder beside the book's, and its name.
+/// Folder and name of the schema that the editor of scenes reads; the folder is beside the book's.
 const SCHEMA: [&str; 2] = ["../scenes-yaml", "scene.schema.json"];
 
-/// What the figures are driven by.
+/// Script that drives the figures.
 const SCRIPT: &str = "figures.js";
 
-/// Builds the figures and copies them into the book's sources, for mdBook to take along. Says
-/// whether they can be used: without WebAssembly, readers see the static pictures.
+/// Builds the figures and copies them into the book's sources, for mdBook to take along. Returns
+/// true if they can be used: without WebAssembly, readers see the static pictures.
 pub(crate) fn prepare(book: &Path, src: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
     let script = book.join("widgets/build.sh");
     let built = script.exists() && build("bash", &script, complaints)?;
@@ -59,12 +59,12 @@ fn read(file: &Path) -> Result<Vec<u8>> {
     std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))
 }
 
-/// Whether the script, run by this shell, builds the WebAssembly.
+/// Builds the WebAssembly by the script `script` in `shell`; returns true if it succeeded.
 fn build(shell: &str, script: &Path, complaints: &mut Vec<Complaint>) -> Result<bool> {
     let output = Command::new(shell)
         .arg(script)
         .stdin(Stdio::null())
-        // What it is doing takes minutes, and it says so; standard output may be mdBook's.
+        // The build takes minutes and prints its progress; standard output may be mdBook's.
         .stderr(Stdio::inherit())
         .output();
     let output = match output {
@@ -94,7 +94,7 @@ fn build(shell: &str, script: &Path, complaints: &mut Vec<Complaint>) -> Result<
     }
 }
 
-/// What a page with an interactive figure loads; `depth` folders below the book's root.
+/// Returns the scripts that a page with an interactive figure loads; `depth` is its depth in folders.
 pub(crate) fn scripts(depth: usize) -> String {
     let root = "../".repeat(depth);
     format!(
@@ -107,7 +107,7 @@ pub(crate) fn scripts(depth: usize) -> String {
 mod tests {
     use super::*;
 
-    /// What a book whose script says this has in `src/interactive`, and how many complaints.
+    /// Prepares a book with this script; returns the verdict, and the numbers of files and of complaints.
     fn prepared(script: Option<&str>) -> (bool, usize, usize) {
         let folder = tempfile::tempdir().unwrap();
         let book = folder.path();

@@ -1,4 +1,4 @@
-//! What mdBook warns of, which it only says in its log: that an included file is missing, say.
+//! Warnings that mdBook writes only to its log, for example that an included file is missing.
 
 use crate::complaint::Complaint;
 use anyhow::{Context as _, Result};
@@ -15,7 +15,7 @@ use tracing::{Event, Level, Metadata, Subscriber};
 pub(crate) struct Log(Arc<Mutex<Vec<String>>>);
 
 impl Log {
-    /// Warnings so far, as complaints about the chapters in `src`, which is called `seen`.
+    /// Returns the warnings so far, as complaints about the chapters in `src`; complaints name it `seen`.
     pub(crate) fn complaints(&self, src: &Path, seen: &str) -> Result<Vec<Complaint>> {
         let said = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if said.is_empty() {
@@ -33,12 +33,12 @@ impl Log {
     }
 }
 
-/// Messages at the places that they speak of, as far as they say so.
+/// Assigns messages to the places that they name, if they name one.
 fn placed(said: &[String], chapters: &BTreeMap<String, String>, seen: &str) -> Vec<Complaint> {
     let mut complaints: Vec<Complaint> = Vec::new();
     for said in said {
         match complaints.last_mut() {
-            // It belongs to the message before it.
+            // The line belongs to the message before it.
             Some(last) if said.starts_with("Caused By: ") => {
                 last.message.push('\n');
                 last.message.push_str(said);
@@ -52,8 +52,8 @@ fn placed(said: &[String], chapters: &BTreeMap<String, String>, seen: &str) -> V
     complaints
 }
 
-/// The chapter that a message names, or the one with what it quotes, such as `{{#include x}}`, and
-/// the line there.
+/// Returns the chapter that a message names, or the one with the text that it quotes, for example
+/// `{{#include x}}`, and the line there.
 fn place<'a>(said: &str, chapters: &'a BTreeMap<String, String>) -> Option<(&'a str, usize)> {
     let quoted = said.find("{{#").and_then(|start| {
         let end = said[start..].find("}}")?;
@@ -122,7 +122,7 @@ mod tests {
         }
         let log = Log::default();
         assert_eq!(log.complaints(folder.path(), "book/src").unwrap(), []);
-        // In mdBook's words.
+        // The messages are in mdBook's words.
         tracing::subscriber::with_default(log.clone(), || {
             let include = "{{#include ../none.rs}}";
             tracing::error!("Error updating \"{include}\", Could not read file for link {include}");

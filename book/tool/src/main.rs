@@ -1,12 +1,12 @@
 //! Builds and checks the book of qrt: `cargo book`, from the repository's root.
 //!
-//! mdBook does most of it. Before it, a [preprocessor] turns formulas into HTML, numbers the
+//! mdBook does most of the work. Before it, a [preprocessor] turns formulas into HTML, numbers the
 //! paper's equations and links them to their code and tests, and makes pages of the source files
-//! that chapters refer to. After it, a [check] follows every link of the finished book, and sees
+//! that chapters refer to. After it, a [check] follows every link of the finished book, and checks
 //! that nothing is loaded from another host and that no page is large.
 //!
 //! The preprocessor also speaks mdBook's protocol, so that plain `mdbook build book` does the same
-//! but for the check.
+//! except for the check.
 
 #![forbid(unsafe_code)]
 
@@ -51,7 +51,7 @@ Usage: cargo book [COMMAND] [--draft]
   --draft             chapters may be missing, and what is wrong is said but is no failure
 ";
 
-/// A command line that makes no sense.
+/// An error in the command line.
 #[derive(Debug)]
 struct Usage(String);
 
@@ -71,7 +71,7 @@ fn main() -> ExitCode {
     ExitCode::from(status(&result))
 }
 
-/// What the command exits with: 0 if all is well, 2 if it was called wrongly, 1 otherwise.
+/// Returns the exit code: 0 for success, 2 for a wrong command line, 1 otherwise.
 fn status(result: &Result<bool>) -> u8 {
     match result {
         Ok(true) => 0,
@@ -80,7 +80,7 @@ fn status(result: &Result<bool>) -> u8 {
     }
 }
 
-/// Whether all is well.
+/// Runs the command; returns true if the book has no faults.
 fn run(mut arguments: Vec<String>) -> Result<bool> {
     let before = arguments.len();
     arguments.retain(|argument| argument != "--draft");
@@ -107,7 +107,7 @@ fn run(mut arguments: Vec<String>) -> Result<bool> {
     }
 }
 
-/// The folder of the book, here or above.
+/// Finds the folder of the book, in the working folder or above.
 fn book() -> Result<PathBuf> {
     let here = std::env::current_dir().context("cannot tell the working folder")?;
     here.ancestors()
@@ -120,7 +120,7 @@ fn book() -> Result<PathBuf> {
 fn build(root: &Path, draft: bool) -> Result<bool> {
     let started = Instant::now();
     let log = Log::default();
-    // Nobody else has set one.
+    // No other subscriber is set in this process.
     let _ = tracing::subscriber::set_global_default(log.clone());
     let file = root.join("book.toml");
     let config =
@@ -130,7 +130,7 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
         draft,
         ..QrtBook::default()
     };
-    // It is run in this process instead, after all others.
+    // The preprocessor runs in this process instead, after all others.
     let config = without(&config, ours.name())?;
     let mut book = if draft {
         let mut summary = summary(&src)?;
@@ -152,7 +152,7 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
     Ok(well)
 }
 
-/// The book's configuration without one of its preprocessors.
+/// Returns the book's configuration without the preprocessor `preprocessor`.
 fn without(config: &Config, preprocessor: &str) -> Result<Config> {
     let mut config = serde_json::to_value(config)?;
     if let Some(table) = config
@@ -164,7 +164,7 @@ fn without(config: &Config, preprocessor: &str) -> Result<Config> {
     Ok(serde_json::from_value(config)?)
 }
 
-/// The table of contents.
+/// Reads the table of contents.
 fn summary(src: &Path) -> Result<Summary> {
     let file = src.join("SUMMARY.md");
     std::fs::read_to_string(&file)
@@ -173,7 +173,7 @@ fn summary(src: &Path) -> Result<Summary> {
         .with_context(|| format!("cannot read {}", file.display()))
 }
 
-/// Chapters whose files are not there become drafts, which mdBook lists without a link.
+/// Turns chapters whose files are missing into drafts, which mdBook lists without a link.
 fn leave_out_missing(summary: &mut Summary, src: &Path) {
     fn visit(items: &mut [SummaryItem], src: &Path) {
         for item in items {
@@ -191,7 +191,7 @@ fn leave_out_missing(summary: &mut Summary, src: &Path) {
     visit(&mut summary.suffix_chapters, src);
 }
 
-/// Checks the built book, and says everything that is wrong.
+/// Checks the built book, and prints all faults.
 fn checked(root: &Path, draft: bool, mut complaints: Vec<Complaint>) -> Result<bool> {
     let report = check::check(&root.join("book"), "book/book")?;
     complaints.extend(report.complaints);
@@ -224,11 +224,11 @@ fn serve(root: &Path, draft: bool, port: u16) -> Result<bool> {
     Ok(true)
 }
 
-/// One exchange of mdBook's protocol: the book comes in, and goes out worked on.
+/// Processes one exchange of mdBook's protocol: reads the book and writes the processed book.
 fn preprocess(draft: bool) -> Result<bool> {
     let (mut context, book) = mdbook_preprocessor::parse_input(std::io::stdin())?;
     if context.root.is_relative() {
-        // It was relative to where mdBook was called; mdBook runs us in the book's folder.
+        // The path is relative to mdBook's working folder, but mdBook runs this tool in the book's folder.
         context.root = std::env::current_dir()?;
     }
     let ours = QrtBook {

@@ -15,15 +15,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::rc::Rc;
 
-/// In place of this line of a chapter comes the index of equations.
+/// Line of a chapter that the index of equations replaces.
 const INDEX: &str = "{{#equations}}";
 
-/// Our preprocessor, and what it has to complain about.
+/// Our preprocessor, and its complaints.
 #[derive(Clone, Default)]
 pub(crate) struct QrtBook {
-    /// Chapters are still being written: equations may be missing.
+    /// True while chapters are still being written: equations may be missing.
     pub(crate) draft: bool,
-    /// What is wrong with the chapters, once they have been worked on.
+    /// Complaints about the chapters, once they have been processed.
     pub(crate) complaints: Rc<RefCell<Vec<Complaint>>>,
 }
 
@@ -123,7 +123,7 @@ impl Preprocessor for QrtBook {
     }
 }
 
-/// The complaint about equations that no chapter restates. Of a draft it is only said.
+/// Returns the complaint about equations that no chapter restates; for a draft, only prints it.
 fn missing(numbers: impl Iterator<Item = u32>, seen: &str, draft: bool) -> Option<Complaint> {
     let missing = equation::missing(numbers)?;
     let message = format!("no chapter restates the paper's equations {missing}");
@@ -142,7 +142,7 @@ fn each(book: &mut Book, work: &mut impl FnMut(&mut mdbook_preprocessor::book::C
     });
 }
 
-/// What a chapter is called, here and there.
+/// Files and names of a chapter.
 struct Names {
     file: String,
     page: String,
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
     use mdbook_driver::config::Config;
 
-    /// What is wrong with a book of one chapter.
+    /// Returns the complaints about a book of one chapter.
     fn complaints(chapter: &str, draft: bool) -> Vec<String> {
         let root = tempfile::tempdir().unwrap();
         let book = root.path().join("book");
@@ -194,7 +194,7 @@ mod tests {
         said.iter().map(ToString::to_string).collect()
     }
 
-    /// Blocks that restate these equations.
+    /// Returns blocks that restate the equations `numbers`.
     fn equations(numbers: impl Iterator<Item = u32>) -> String {
         let block = |number| {
             format!("```equation {number}\na\n---\nwhat: it\ncode: x.rs#x\ntest: x.rs#x\n```\n\n")

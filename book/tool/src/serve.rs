@@ -1,4 +1,4 @@
-//! The book over HTTP, on this machine alone: browsers run no modules from files.
+//! Serves the book over HTTP, on this machine alone: browsers do not load modules from files.
 
 use crate::check::decoded;
 use anyhow::Result;
@@ -10,7 +10,7 @@ use std::path::{Component, Path};
 pub(crate) fn serve(folder: &Path, port: u16) -> Result<()> {
     let listener = listen(port)?;
     println!("http://{}/ (Ctrl-C ends it)", listener.local_addr()?);
-    // A browser that hangs up is no reason to stop.
+    // A failed connection does not stop the server.
     for stream in listener.incoming().flatten() {
         let folder = folder.to_owned();
         std::thread::spawn(move || {
@@ -60,7 +60,7 @@ fn answer(mut stream: &TcpStream, folder: &Path) -> std::io::Result<()> {
     stream.write_all(&content)
 }
 
-/// The file that a request asks for, from the folder that is served; none if it would be elsewhere.
+/// Returns the path of the requested file below the served folder; `None` if it would be elsewhere.
 fn asked(request: &str) -> Option<String> {
     let target = request.strip_prefix("GET ")?.split(' ').next()?;
     let path = decoded(target.split(['?', '#']).next()?);
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use std::io::Read as _;
 
-    /// What a folder's server answers to a request line.
+    /// Returns the answer of a folder's server to a request line.
     fn answered(folder: &Path, request: &str) -> String {
         let listener = listen(0).unwrap();
         let mut client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
@@ -153,7 +153,7 @@ mod tests {
         for target in ["/../x", "/%2e%2e/x", "/..%2fx", "/a/../x", "/a/%2E./x"] {
             assert_eq!(asked(&format!("GET {target} HTTP/1.1")), None, "{target}");
         }
-        // What is undone once stays as it is then, and no path begins at the machine's root.
+        // Escapes are decoded only once, and no path begins at the file system's root.
         for (target, path) in [("/%252e/x", "%2e/x"), ("//etc/passwd", "etc/passwd")] {
             let asked = asked(&format!("GET {target} HTTP/1.1"));
             assert_eq!(asked.as_deref(), Some(path));

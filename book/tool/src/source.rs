@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Component, Path, PathBuf};
 
-/// Larger files are not shown: their pages would be too large.
+/// Largest size of a file that is shown, in bytes: pages of larger files would be too large.
 const LARGEST: u64 = 280_000;
 
-/// The look of these pages.
+/// Style sheet of these pages.
 const STYLE: &str = include_str!("source.css");
 
-/// The theme that the reader chose in the book, on these pages too.
+/// Script that applies the theme that the reader chose in the book.
 const THEME: &str = "try { const theme = localStorage.getItem('mdbook-theme'); \
     if (theme) document.documentElement.dataset.theme = \
     ['light', 'rust'].includes(theme) ? 'light' : 'dark'; } catch (e) {}";
@@ -32,7 +32,7 @@ struct File {
 }
 
 impl Sources {
-    /// Sources of the repository at this root.
+    /// Creates the list of sources of the repository at `root`.
     pub(crate) fn new(root: &Path) -> Self {
         Self {
             root: root.to_owned(),
@@ -40,7 +40,7 @@ impl Sources {
         }
     }
 
-    /// The page of a file, and the line where it defines the symbol, if one is named; as a path from
+    /// Returns the page of a file, and the line where it defines the symbol, if one is named; as a path from
     /// the book's root. `chapter` is the page and the name of the chapter that refers to it.
     pub(crate) fn link(
         &mut self,
@@ -68,7 +68,7 @@ impl Sources {
         }
     }
 
-    /// As [`link`](Self::link), of an equation's place.
+    /// Same as [`link`](Self::link), for an equation's place.
     pub(crate) fn place(&mut self, place: &Place, chapter: (&str, &str)) -> Result<String, String> {
         self.link(&place.path, Some(&place.symbol), chapter)
     }
@@ -94,7 +94,7 @@ impl Sources {
         std::fs::read_to_string(&file).map_err(|error| format!("cannot read {path}: {error}"))
     }
 
-    /// Writes the pages of all files that were linked to, and removes those of earlier builds.
+    /// Writes the pages of all linked files, and removes those of earlier builds.
     pub(crate) fn write(&self, folder: &Path) -> Result<()> {
         let mut wanted = BTreeMap::new();
         wanted.insert("style.css".to_owned(), STYLE.to_owned());
@@ -105,7 +105,7 @@ impl Sources {
     }
 }
 
-/// What a file's page is called. mdBook takes `.md` in a link for one of its own pages.
+/// Returns the name of a file's page. mdBook takes `.md` in a link for one of its own pages.
 fn page_of(path: &str) -> String {
     format!(
         "{}.html",
@@ -131,7 +131,7 @@ fn page(path: &str, file: &File) -> String {
             escaped(name)
         );
     }
-    // It scrolls where lines are long: by keyboard, too.
+    // `tabindex` lets a reader scroll long lines by keyboard, too.
     page.push_str(".</p></header>\n<pre tabindex=\"0\">");
     for (index, line) in file.text.lines().enumerate() {
         let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escaped(line));

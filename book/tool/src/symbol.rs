@@ -1,22 +1,22 @@
-//! Where a source file defines a symbol, as far as its lines tell.
+//! Finds the line on which a source file defines a symbol.
 //!
-//! It needs nothing else of the tool: the book's tests include this file.
+//! It needs nothing else from the tool: the book's tests include this file.
 
-/// What a line of Rust says.
+/// Kind of a line of Rust.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Code.
     Code,
-    /// Code of an example within documentation, one that is tested.
+    /// Code of an example within documentation that is tested.
     Example,
-    /// Words, or an example that nobody runs.
+    /// Words, or an example that is not run.
     Words,
 }
 
-/// The lines of a text: code without the comment behind it, documentation without what makes it
-/// that.
+/// Returns the lines of a text: code without a comment at its end, documentation without the comment
+/// mark.
 pub(crate) fn lines(text: &str) -> Vec<(Kind, &str)> {
-    // In documentation: the length of the fence that is open, and whether what it holds is tested.
+    // Length of the open fence in documentation, and whether its example is tested.
     let mut open: Option<(usize, bool)> = None;
     let mut lines = Vec::new();
     for line in text.lines() {
@@ -48,7 +48,7 @@ pub(crate) fn lines(text: &str) -> Vec<(Kind, &str)> {
     lines
 }
 
-/// Whether `rustdoc` runs a block that begins so, or sees that it does not compile.
+/// True if `rustdoc` runs a block with this `info`, or checks that it does not compile.
 fn is_tested(info: &str) -> bool {
     let mut words = info.split([',', ' ', '\t']).filter(|word| !word.is_empty());
     words.all(|word| {
@@ -59,8 +59,8 @@ fn is_tested(info: &str) -> bool {
     })
 }
 
-/// The line, counted from 1, on which a symbol is defined: the first in code, or else the first in
-/// an example.
+/// Returns the line, counted from 1, that defines a symbol: the first in code, or else the first in an
+/// example.
 pub(crate) fn line_of(text: &str, symbol: &str) -> Option<usize> {
     let lines = lines(text);
     let first = |wanted| {
@@ -71,7 +71,7 @@ pub(crate) fn line_of(text: &str, symbol: &str) -> Option<usize> {
     first(Kind::Code).or_else(|| first(Kind::Example))
 }
 
-/// What stands before a name that is defined.
+/// Words before a name that is defined.
 const KEYWORDS: [&str; 12] = [
     "fn",
     "struct",
@@ -87,7 +87,7 @@ const KEYWORDS: [&str; 12] = [
     "macro_rules!",
 ];
 
-/// Whether a line of code defines a symbol.
+/// True if a line of code defines a symbol.
 pub(crate) fn defines(line: &str, symbol: &str) -> bool {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let whole = !symbol.is_empty() && symbol.chars().all(is_word);

@@ -1,8 +1,9 @@
-//! What scripts call.
+//! Functions that scripts call.
 //!
-//! Numbers are arguments; a text is written into the module's memory, where [`qrt_input`] says.
-//! Every call leaves an [`Answer`], whose index and numbers a script finds where [`qrt_index`] and
-//! [`qrt_numbers`] say, until the next call. What goes wrong is an answer, too: the text `error`.
+//! Numbers are arguments. A script writes a text into the module's memory, at the address from
+//! [`qrt_input`]. Every call stores an [`Answer`], whose index and numbers a script finds at the
+//! addresses from [`qrt_index`] and [`qrt_numbers`], until the next call. An error is an answer, too:
+//! the text `error`.
 //!
 //! A module has the calls of the figures that it is compiled for, and one circuit and one picture:
 //! a page makes an instance of it for each figure.
@@ -35,7 +36,7 @@ fn with<T>(work: impl FnOnce(&mut State) -> T) -> T {
     STATE.with_borrow_mut(work)
 }
 
-/// Leaves what a call found.
+/// Stores the result of a call.
 fn answer<E: Display>(found: Result<Answer, E>) {
     with(|state| {
         state.answer =
@@ -44,17 +45,17 @@ fn answer<E: Display>(found: Result<Answer, E>) {
     });
 }
 
-/// The text that a script wrote.
+/// Returns the text that a script wrote.
 #[cfg(any(feature = "map", feature = "picture"))]
 fn text() -> String {
     with(|state| String::from_utf8_lossy(&state.input).into_owned())
 }
 
-/// What a figure without its first call says.
+/// Error of a figure whose first call is missing.
 #[cfg(any(feature = "circuit", feature = "picture"))]
 const NOT_LOADED: &str = "the figure is not loaded";
 
-/// Room for a text of so many bytes, in UTF-8, which the next call reads.
+/// Allocates `bytes` bytes for a text in UTF-8, which the next call reads.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_input(bytes: usize) -> *mut u8 {
     with(|state| {
@@ -64,31 +65,31 @@ pub extern "C" fn qrt_input(bytes: usize) -> *mut u8 {
     })
 }
 
-/// The index of the last answer: JSON.
+/// Address of the index of the last answer: JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_index() -> *const u8 {
     with(|state| state.index.as_ptr())
 }
 
-/// Its bytes.
+/// Length of the index in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_index_length() -> usize {
     with(|state| state.index.len())
 }
 
-/// The numbers of the last answer.
+/// Address of the numbers of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_numbers() -> *const f64 {
     with(|state| state.answer.numbers().as_ptr())
 }
 
-/// How many.
+/// Number of these numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_numbers_length() -> usize {
     with(|state| state.answer.numbers().len())
 }
 
-/// The last answer.
+/// Returns the last answer.
 #[cfg(test)]
 fn last() -> Answer {
     with(|state| state.answer.clone())

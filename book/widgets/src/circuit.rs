@@ -1,8 +1,8 @@
 //! The figure `circuit`: a tiny scene's oracle, gate by gate, on all its basis states at once.
 //!
-//! The scene's text is compiled as any other. The gates machine runs the oracle's circuit, one
-//! operation of the program after another, forwards or backwards; the figure looks at the registers
-//! of one basis state in between, and at the signs of all of them.
+//! The scene's text is compiled like any other. The gates machine runs the oracle's circuit, one
+//! operation of the program after another, forwards or backwards; in between, the figure shows the
+//! registers of one basis state, and the signs of all of them.
 
 use qrt_circuit::{Circuit, Gate, Qubit};
 use qrt_runtime::machines::{Gates, InvalidGate, Rows};
@@ -16,7 +16,7 @@ struct Register {
     name: &'static str,
     ty: &'static str,
     role: &'static str,
-    /// -1 for none.
+    /// Depth of its block; -1 for a block without one.
     depth: i32,
     width: u32,
     fraction: u32,
@@ -35,13 +35,13 @@ struct Step {
     block: &'static str,
     /// Registers that hold something afterwards.
     held: &'static [u8],
-    /// Is it the operation that stands as far from the end as this from the beginning, backwards?
+    /// True if the operation is, backwards, the one at the same distance from the other end.
     mirrored: bool,
-    /// Kind, controls and target; none if it is mirrored.
+    /// Kind, controls and target of each gate; empty if the operation is mirrored.
     gates: &'static [[u8; 4]],
 }
 
-/// An operation's gates, in their order.
+/// Returns an operation's gates, in their order.
 fn gates(place: usize) -> Vec<[u8; 4]> {
     if STEPS[place].mirrored {
         let twin = STEPS[STEPS.len() - 1 - place].gates;
@@ -66,7 +66,7 @@ fn comparator_bits() -> u32 {
     REGISTERS[COMPARATOR].width
 }
 
-/// What there is to see: registers, and the operations in their order.
+/// Returns the registers, and the operations in their order.
 pub fn description() -> Answer {
     let registers = |part: fn(&Register) -> &'static str| -> Vec<&'static str> {
         REGISTERS.iter().map(part).collect()
@@ -107,18 +107,18 @@ pub fn description() -> Answer {
 
 /// An oracle whose circuit has run up to some operation.
 pub struct Stepper {
-    /// The operations' gates, and behind them the same backwards.
+    /// The operations' gates, followed by the inverse of each operation.
     machine: Gates,
     rows: Rows,
-    /// Operations that have run.
+    /// Number of operations that have run.
     position: usize,
 }
 
 impl Stepper {
-    /// Before the first operation, all ids and comparators in superposition.
+    /// Prepares the state before the first operation, with all ids and comparators in superposition.
     ///
     /// # Errors
-    /// None that this circuit has.
+    /// This circuit gives no error.
     pub fn new() -> Result<Self, InvalidGate> {
         let forwards: Vec<Circuit> = (0..STEPS.len()).map(circuit).collect();
         let backwards: Vec<Circuit> = forwards.iter().map(inverse).collect();
@@ -138,8 +138,8 @@ impl Stepper {
         })
     }
 
-    /// Runs forwards or backwards until `position` operations have run, and tells of the registers
-    /// of one basis state, and of the signs of all.
+    /// Runs forwards or backwards until `position` operations have run; returns the registers of one
+    /// basis state, and the signs of all.
     pub fn step(&mut self, id: u64, comparator: u64, position: usize) -> Answer {
         let last = STEPS.len();
         let position = position.min(last);
@@ -155,7 +155,7 @@ impl Stepper {
         let states = 1_usize << (id_bits() + comparator_bits());
         let lane = (id | comparator << id_bits()) as usize % states;
 
-        // By register: 1 if it is computed, its value, its bits.
+        // For each register: 1 if it is computed, its value, its bits.
         let count = REGISTERS.len();
         let mut computed = vec![0.0; count];
         let mut values = vec![0.0; count];
@@ -186,7 +186,7 @@ impl Stepper {
             )
     }
 
-    /// The registers that hold something now.
+    /// Returns the registers that hold a value now.
     fn held(&self) -> &'static [u8] {
         match self.position.checked_sub(1) {
             None => BEFORE,
@@ -194,11 +194,11 @@ impl Stepper {
         }
     }
 
-    /// The bits of `qubits` in a lane, the most significant first.
+    /// Returns the bits of `qubits` in a lane, the most significant first.
     fn bits(&self, qubits: &[Qubit], lane: usize) -> String {
         let mut values = vec![0; lane + 1];
         let mut bits = String::new();
-        // A register of scratch may be wider than a word.
+        // A scratch register may be wider than a word.
         for word in qubits.chunks(64).rev() {
             self.rows.get(word, &mut values);
             let _ = write!(bits, "{:0width$b}", values[lane], width = word.len());
@@ -207,13 +207,13 @@ impl Stepper {
     }
 }
 
-/// The qubits of a register.
+/// Returns the qubits of a register.
 fn qubits(register: usize) -> Vec<Qubit> {
     let places = PLACES[register].iter();
     places.copied().map(Qubit::from).collect()
 }
 
-/// An operation's gates, for a machine.
+/// Returns an operation's gates, for a machine.
 fn circuit(step: usize) -> Circuit {
     let gate = |&[kind, a, b, target]: &[u8; 4]| {
         let [a, b, target] = [a, b, target].map(Qubit::from);
@@ -231,14 +231,14 @@ fn circuit(step: usize) -> Circuit {
     }
 }
 
-/// The gates in reverse order: all are their own inverses.
+/// Returns the gates in reverse order: each gate is its own inverse.
 fn inverse(step: &Circuit) -> Circuit {
     let mut inverse = step.clone();
     inverse.gates.reverse();
     inverse
 }
 
-/// The integer that bits stand for; of scratch, the number of ones.
+/// Returns the integer that `bits` encode; for scratch, the number of ones.
 fn value(bits: &str, meaning: Meaning) -> f64 {
     let ones = || bits.bytes().filter(|bit| *bit == b'1').count();
     match meaning {
@@ -272,7 +272,7 @@ mod tests {
         (0..ids).flat_map(move |id| (0..comparators).map(move |comparator| (id, comparator)))
     }
 
-    /// Against the definition of every operation, on integers: all registers but scratch, after
+    /// Compares with the definition of every operation, on integers: all registers but scratch, after
     /// each operation, forwards and then backwards.
     #[test]
     fn registers_hold_what_operations_define() {
@@ -324,7 +324,7 @@ mod tests {
         }
     }
 
-    /// Good indices are those whose phase is flipped, and nothing else is left.
+    /// Checks that good indices are those whose phase is flipped, and that no garbage is left.
     #[test]
     fn the_whole_call_turns_the_signs_of_good_ids_and_no_more() {
         let oracle = oracle();
@@ -360,7 +360,7 @@ mod tests {
         assert_eq!(value("", Meaning::Unsigned), 0.0);
     }
 
-    /// The figure would be unreadable otherwise, and states would not fit the machine's lanes.
+    /// Otherwise the figure would be unreadable, and states would not fit the machine's lanes.
     #[test]
     fn the_scene_is_tiny() {
         assert!(STEPS.len() < 100, "{}", STEPS.len());

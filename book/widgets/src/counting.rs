@@ -1,6 +1,6 @@
-//! The figure `counting`: what the phase register reads, draws from it, and what they tell.
+//! The figure `counting`: outcomes of the phase register, draws from it, and the posterior.
 //!
-//! The same as `qrt count` with `--total 4096`, number by number.
+//! Its numbers are those of `qrt count` with `--total 4096`.
 
 use qrt_core::scene::Window;
 use qrt_runtime::counting::{PhaseDistribution, posterior};
@@ -12,15 +12,15 @@ use qrt_runtime::random::Stream;
 
 /// N, the number of ids.
 pub const IDS: u64 = 4096;
-/// The most phase bits that the figure offers.
+/// Most phase bits that the figure offers.
 pub const MOST_PHASE_BITS: u32 = 10;
-/// The most runs that it offers.
+/// Most runs that the figure offers.
 pub const MOST_RUNS: u32 = 64;
 
-/// What the controls say.
+/// Values of the controls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
-    /// The angle, in turns, from 0 to 1/2. The nearest that a number of good ids has is taken.
+    /// The angle, in turns, from 0 to 1/2; rounded to the nearest angle of a number of good ids.
     pub theta: f64,
     /// t, of T = 2^t.
     pub phase_bits: u32,
@@ -28,17 +28,17 @@ pub struct Asked {
     pub runs: u32,
     /// The register's window.
     pub window: Window,
-    /// What the draws depend on.
+    /// Seed of the draws.
     pub seed: u32,
 }
 
-/// The good ids among [`IDS`] whose angle is nearest to `theta`, in turns.
+/// Returns the number of good ids among [`IDS`] whose angle is nearest to `theta`, in turns.
 pub fn good(theta: f64) -> u64 {
     let sine = libm::sin(std::f64::consts::PI * theta.clamp(0.0, 0.5));
     libm::round(IDS as f64 * sine * sine) as u64
 }
 
-/// Distribution, draws, posterior and estimate.
+/// Returns the distribution, draws, posterior and estimate.
 ///
 /// # Errors
 /// A register or a number of runs out of range.
@@ -99,7 +99,7 @@ pub fn answer(asked: Asked) -> Result<Answer, EstimatorError> {
         .list("posterior", posterior))
 }
 
-/// The angles of all numbers of good ids, in turns: where a posterior's entries belong.
+/// Returns the angles of all numbers of good ids, in turns: the places of a posterior's entries.
 ///
 /// # Errors
 /// None; numbers of good ids are in range.
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// sin^2(pi/3) = 3/4.
+    /// Because sin^2(pi/3) = 3/4.
     #[test]
     fn a_third_of_a_turn_is_three_quarters_of_the_ids() {
         let answer = answer(asked()).unwrap();

@@ -1,9 +1,9 @@
 //! The interactive figures of the book of qrt.
 //!
-//! Each figure is a function of its controls, and what it shows is computed by qrt itself, compiled
-//! to WebAssembly: nothing is computed a second time in a script. [`boundary`] is what scripts call;
-//! `book/interactive/figures.js` draws. A page has one of them as a rule, so that each becomes a
-//! module of its own, by a feature of its name, and readers load no other's code.
+//! Each figure is a function of its controls. qrt itself, compiled to WebAssembly, computes the
+//! results: no script computes them a second time. Scripts call [`boundary`];
+//! `book/interactive/figures.js` draws. Most pages have one figure, so each figure becomes a module
+//! of its own, by a feature of its name, and readers do not load the code of other figures.
 //!
 //! * [`counting`]: the phase register's distribution, draws from it, and the posterior;
 //! * [`map`]: a lattice in the unit square and on the sphere, and its Jacobian;
@@ -15,7 +15,7 @@
     clippy::unwrap_used,
     clippy::expect_used
 )]
-// As in the workspace of qrt.
+// The same lint settings as in the workspace of qrt.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,

@@ -1,6 +1,6 @@
-//! The figure `map`: a lattice in the unit square, and where a map takes it on the sphere.
+//! The figure `map`: a lattice in the unit square, and its image under a map on the sphere.
 //!
-//! A map of the reader's own is read, differentiated and checked by what checks a scene's.
+//! The code that checks a scene also reads, differentiates and checks the reader's own map.
 
 use qrt_core::expr::{Expr, Variables};
 use qrt_core::sampling::{ProductLattice, SamplingError, cell_centre, maps};
@@ -10,22 +10,22 @@ use qrt_core::valid::bsdf;
 use qrt_runtime::playground::Answer;
 use std::fmt::Write;
 
-/// The most bits of each of the two coordinates that the figure offers.
+/// Most bits of each of the two coordinates that the figure offers.
 pub const MOST_BITS: u32 = 6;
-/// The longest formula of a Jacobian that is shown.
+/// Longest formula of a Jacobian that is shown, in bytes.
 const LONGEST_FORMULA: usize = 160;
 
-/// Where directions come from.
+/// The source of directions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chosen {
     /// One of qrt's own maps.
     Builtin(Map),
-    /// Expressions in u and v for x, y and z: a line each.
+    /// Expressions in u and v for x, y and z, one on each line.
     Own(String),
 }
 
-/// Points of the square, their directions and Jacobians, and the integral of the cosine over the
-/// hemisphere with these as multiplied and divided; or a text with all that is wrong.
+/// Returns points of the square, their directions and Jacobians, and the integral of the cosine over
+/// the hemisphere with the Jacobians as factors and as divisors; or a text with all errors.
 ///
 /// # Errors
 /// Bits out of range.
@@ -78,7 +78,7 @@ pub fn answer(chosen: &Chosen, bits: u32) -> Result<Answer, SamplingError> {
         .text("jacobian_formula", formula(&jacobian)))
 }
 
-/// A formula, unless it is too long to be read.
+/// Returns the text of a formula, unless it is too long to read.
 fn formula(expression: &Expr) -> String {
     let text = expression.to_string();
     if text.len() > LONGEST_FORMULA {
@@ -88,13 +88,13 @@ fn formula(expression: &Expr) -> String {
     }
 }
 
-/// The map of three lines of text, or all that is wrong with it.
+/// Parses the map from three lines of text, or returns all errors.
 fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
     let mut lines = text.split('\n');
     let bsdf = Bsdf {
         map: [(); 3].map(|()| lines.next().unwrap_or_default().to_owned()),
         jacobian: Jacobian::Auto,
-        // What reflects nothing is no more wrong than its map.
+        // The figure needs only the map, so the value is 0: a BSDF without reflection is valid.
         value: vec!["0".to_owned()],
         pdf: None,
     };
@@ -107,7 +107,7 @@ fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
     }
 }
 
-/// A problem as qrt tells it: its code and message, its place, and what to write instead.
+/// Formats a problem as qrt does: its code and message, its place, and its remedy.
 fn told(map: &[String; 3], problem: &Problem) -> String {
     let words = problem.words();
     let mut out = format!("error[{}]: {}", words.code, words.message);

@@ -1,9 +1,8 @@
 //! The figure `picture`: a small picture that sharpens as queries are spent.
 //!
-//! The Cornell box of `scenes-yaml/`, smaller: what `qrt render` makes of it with the same overrides
-//! and the same estimator, number by number; at seed 0, that is, for here a seed draws outcomes and
-//! leaves the paths as they are. It is traced and counted a few pixels at a time, so
-//! that the page stays alive meanwhile.
+//! The scene is the Cornell box of `scenes-yaml/`, made smaller. Its numbers are those of `qrt render`
+//! with the same overrides and the same estimator at seed 0: here a seed draws outcomes, but does not
+//! change the paths. The page traces and counts a few pixels at a time, so that it stays responsive.
 
 use qrt_core::scene::meshes::Meshes;
 use qrt_core::scene::{Counting, Estimator};
@@ -29,14 +28,14 @@ mod made {
     include!(concat!(env!("OUT_DIR"), "/picture.rs"));
 }
 
-/// The estimators that the figure offers, as the command line calls them.
+/// Estimators that the figure offers, by their names on the command line.
 pub const ESTIMATORS: [&str; 4] = ["monte-carlo", "paper", "sine", "adaptive-bayes"];
-/// The most phase bits that it offers: a channel has 2^t - 1 queries.
+/// Most phase bits that the figure offers: a channel has 2^t - 1 queries.
 pub const MOST_PHASE_BITS: u32 = 16;
-/// By what radiances are multiplied before they are shown, for the box is dark.
+/// Factor of radiances for display, because the box is dark.
 const EXPOSURE: f64 = 2.0;
 
-/// The picture as far as it is.
+/// The picture as far as it is traced and estimated.
 pub struct Picture {
     real: Real,
     scale: [f64; 3],
@@ -45,11 +44,11 @@ pub struct Picture {
     /// Columns and rows.
     film: [u32; 2],
     pixels: Vec<[u32; 2]>,
-    /// By pixel, as far as they are traced: the mean of its paths, and their good ids.
+    /// Mean of the paths and number of good ids, by pixel, as far as pixels are traced.
     traced: Vec<Traced>,
-    /// By pixel: what was estimated last.
+    /// Latest estimate, by pixel.
     estimated: Vec<[f64; 3]>,
-    /// Queries that these took.
+    /// Number of queries of the latest estimate, by pixel.
     queries: Vec<u64>,
 }
 
@@ -60,10 +59,10 @@ struct Traced {
 }
 
 impl Picture {
-    /// The scene, and nothing traced.
+    /// Creates the scene, with nothing traced.
     ///
     /// # Errors
-    /// A scene that is no scene.
+    /// An invalid scene.
     pub fn new() -> Result<Self, Box<dyn Error>> {
         let valid =
             validate(made::scene(), &Meshes::default()).map_err(|_| "the scene is wrong")?;
@@ -86,7 +85,7 @@ impl Picture {
         })
     }
 
-    /// What the picture is.
+    /// Returns the description of the picture.
     pub fn description(&self) -> Answer {
         Answer::default()
             .number("width", self.film[0].into())
@@ -102,7 +101,7 @@ impl Picture {
         self.real.paths() * self.comparators[channel].count()
     }
 
-    /// Traces the next `count` pixels: every path of them. Answers their levels of sRGB.
+    /// Traces every path of the next `count` pixels. Returns their levels of sRGB.
     pub fn trace(&mut self, count: usize) -> Answer {
         let first = self.traced.len();
         let last = (first + count).min(self.pixels.len());
@@ -124,11 +123,11 @@ impl Picture {
             .list("levels", traced.flat_map(|pixel| levels(&pixel.mean)))
     }
 
-    /// Estimates the colours of `pixels` anew, with 2^`phase_bits` - 1 queries a channel. Answers
-    /// their levels of sRGB.
+    /// Estimates the colours of `pixels` again, with 2^`phase_bits` - 1 queries a channel. Returns their
+    /// levels of sRGB.
     ///
     /// # Errors
-    /// An estimator that there is not, or phase bits out of range.
+    /// An unknown estimator, or phase bits out of range.
     pub fn estimate(
         &mut self,
         name: &str,
@@ -168,7 +167,7 @@ impl Picture {
         let mut queries = 0;
         for (channel, value) in colour.iter_mut().enumerate() {
             let comparators = self.comparators[channel];
-            // Nothing to count: black is proven.
+            // The channel is proven black, so there is nothing to count.
             if self.scale[channel] == 0.0 {
                 continue;
             }
@@ -185,7 +184,7 @@ impl Picture {
         Ok((colour, queries))
     }
 
-    /// What was estimated, beside what the paths add up to.
+    /// Returns the exact means of the paths, the estimates, and their RMSE relative to the mean.
     pub fn summary(&self) -> Answer {
         let pairs = self.traced.iter().zip(&self.estimated);
         let values = 3 * pairs.len().max(1);
@@ -207,7 +206,7 @@ impl Picture {
     }
 }
 
-/// `monte-carlo`, where no error is asked: so many paths, and the share of the good ones.
+/// The estimator `monte-carlo` without a requested error: the fraction of good paths among a fixed number.
 struct Paths(u64);
 
 impl AmplitudeEstimator for Paths {
@@ -218,8 +217,8 @@ impl AmplitudeEstimator for Paths {
     }
 }
 
-/// The estimator of that name, of those that the figure offers. By name among all of qrt's, all of
-/// them would have to be sent to browsers.
+/// Returns the estimator `name`, one of those that the figure offers. A lookup among all of qrt's
+/// estimators would send the code of all of them to browsers.
 fn estimator(
     name: &str,
     settings: &Settings,
@@ -233,7 +232,7 @@ fn estimator(
     })
 }
 
-/// The 8-bit levels of sRGB (IEC 61966-2-1) that show a radiance.
+/// Returns the 8-bit levels of sRGB (IEC 61966-2-1) that show a radiance.
 fn levels(radiance: &[f64; 3]) -> [f64; 3] {
     radiance.map(|linear| {
         let linear = (EXPOSURE * linear).clamp(0.0, 1.0);
@@ -250,7 +249,7 @@ fn levels(radiance: &[f64; 3]) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    /// All at once, or a few pixels at a time.
+    /// Traces the picture all at once, or `step` pixels at a time.
     fn picture(step: usize) -> Picture {
         let mut picture = Picture::new().unwrap();
         let all = picture.pixels.len();
@@ -276,8 +275,8 @@ mod tests {
         assert_eq!(one, estimated(&mut other, "sine", 6, 1000));
     }
 
-    /// The standard error of Monte Carlo from q queries, over all pixels: by the good ids that were
-    /// counted, and a tenth more or less for 1,728 values.
+    /// Expects the standard error of Monte Carlo from q queries, over all pixels, within a tenth for 1,728
+    /// values; the good ids that were counted give its value.
     #[test]
     fn the_error_of_monte_carlo_is_the_binomial_one() {
         let mut picture = picture(1000);
@@ -313,7 +312,7 @@ mod tests {
         }
     }
 
-    /// As the front end reads it, and as `qrt render` estimates it.
+    /// Compares the scene with the front end's, and the estimates with those of `qrt render`.
     #[test]
     fn it_is_the_scene_of_the_repository() {
         use qrt_core::scene::Estimator;

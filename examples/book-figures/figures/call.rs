@@ -1,7 +1,7 @@
-//! One call of an oracle, stage by stage: which registers hold something, and what becomes of the signs.
+//! One call of an oracle, stage by stage: the registers in use, and the signs of the basis states.
 //!
-//! The drawing has all steps in it. Without a fragment it shows the whole call; with the fragment
-//! `#s5` it shows what there is after the fifth stage. A script of the book goes through the steps.
+//! The drawing contains all steps. Without a fragment it shows the whole call; with the fragment
+//! `#s5` it shows the state after the fifth stage. A script of the book goes through the steps.
 
 use super::{Body, Figure, scene};
 use qrt::core::inspect::{Frame, Inspection, Part, grouped};
@@ -14,12 +14,12 @@ use std::sync::Arc;
 /// The pixel, and the seed of its shifts.
 const PIXEL: [u32; 2] = [1, 0];
 const SEED: u64 = 1;
-/// Where the table begins, and the size of its cells.
+/// Position of the table, and the size of its cells.
 const LEFT: f64 = 142.0;
 const TOP: f64 = 96.0;
 const CELL: [f64; 2] = [25.0, 24.0];
 
-/// How many thresholds each path exceeds.
+/// Returns the number of thresholds that each path exceeds.
 fn counts() -> Vec<i64> {
     let scene = scene(include_str!("../../lit-wall.yaml"), "lit-wall.yaml");
     let oracle = Arc::new(Oracle::rgb(&scene, Options::default()).expect("an oracle"));
@@ -32,7 +32,7 @@ fn counts() -> Vec<i64> {
     counts
 }
 
-/// The colour of a wire: that of what it holds.
+/// Returns the colour class of a wire, by the role of its register.
 fn class(name: &str) -> &'static str {
     match name {
         "id" => "id",
@@ -105,7 +105,7 @@ pub(super) fn animated() -> Figure {
             &(k + 1).to_string(),
         );
     }
-    // What a step does, and what the whole shows.
+    // The line of text: the label of the whole call, or of a step.
     let line = bottom + 24.0;
     canvas.text(
         "step t0",
@@ -170,7 +170,7 @@ pub(super) fn animated() -> Figure {
     }
 }
 
-/// The drawing with its steps: what is seen of it under which fragment.
+/// Returns the drawing with its steps: rules that show a part of it for each fragment.
 fn stepped(svg: &str, boxes: usize, flip: usize) -> String {
     let mut rules = String::from(
         ".drawing .faint{opacity:.35}.drawing .step{opacity:0}.drawing .t0{opacity:1}\

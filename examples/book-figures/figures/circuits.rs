@@ -1,4 +1,4 @@
-//! Circuits: drawn, and what they cost.
+//! Drawings of circuits, and their costs.
 
 #[path = "../../../benches/common/growth.rs"]
 mod scenes;
@@ -14,7 +14,7 @@ use qrt::drawing::{Axis, Canvas, Drawn, Plot, Series};
 use qrt::runtime::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 
-/// A lamp before a wall: a circuit small enough to be seen whole.
+/// A lamp in front of a wall: a circuit small enough to be seen whole.
 const WALL: &str = include_str!("../../lit-wall.yaml");
 
 fn inspected(scene: &ValidScene) -> Inspection {
@@ -31,7 +31,7 @@ fn figures(inspection: &Inspection) -> String {
     )
 }
 
-/// The call in the paper's frame.
+/// Draws the call in the paper's frame.
 pub(super) fn frame() -> Figure {
     let inspection = inspected(&scene(WALL, "lit-wall.yaml"));
     let says = format!(
@@ -43,7 +43,7 @@ pub(super) fn frame() -> Figure {
     Figure::drawn(draw::frame(&inspection, "lit-wall"), says)
 }
 
-/// Qubits of one stage and one role, from the first that is computed to the last that is undone.
+/// Qubits of one stage and one role, from the first computation to the last uncomputation.
 struct Held {
     stage: String,
     role: Role,
@@ -51,7 +51,7 @@ struct Held {
     instructions: [usize; 2],
 }
 
-/// The map of registers, summed up by stage and role.
+/// Returns the map of registers, summed up by stage and role.
 fn held(inspection: &Inspection) -> Vec<Held> {
     let stages = inspection.stages();
     let mut all: Vec<Held> = Vec::new();
@@ -87,7 +87,7 @@ fn held(inspection: &Inspection) -> Vec<Held> {
     all
 }
 
-/// Which stage's qubits are held, and when.
+/// Draws the qubits that each stage holds over time.
 pub(super) fn registers() -> Figure {
     let inspection = inspected(&scene(WALL, "lit-wall.yaml"));
     let all = held(&inspection);
@@ -140,12 +140,12 @@ pub(super) fn registers() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// What the book calls a register or a role.
+/// Returns the book's name of a register or a role.
 fn named(name: &str) -> String {
     if name == "id" { "path index" } else { name }.to_owned()
 }
 
-/// The class of a role's colour.
+/// Returns the class of a role's colour.
 fn class(role: Role) -> &'static str {
     match role {
         Role::Id => "id",
@@ -157,14 +157,14 @@ fn class(role: Role) -> &'static str {
     }
 }
 
-/// Toffolis of one call, first channel.
+/// Returns the Toffolis of one call, first channel.
 fn toffolis(scene: &ValidScene) -> f64 {
     let oracle = Oracle::new(scene, 0, Options::default()).expect("the scene has a circuit");
     let costs = lower::tally(&oracle.whole(0));
     costs.iter().map(|cost| cost.toffoli as f64).sum()
 }
 
-/// How the cost grows.
+/// Draws the growth of the cost.
 pub(super) fn growth() -> Figure {
     let quads = [4, 8, 16, 32, 64, 128].map(|count| {
         let scene = scene(&scenes::quads(count), "quads.yaml");
@@ -175,7 +175,7 @@ pub(super) fn growth() -> Figure {
         let scene = cornell(&[&format!("sampling.depths=[{depths}]")]);
         (f64::from(count), toffolis(&scene))
     });
-    // The first ray is the cheapest: a power law holds later.
+    // The first ray is the cheapest, so the power laws are fitted over more rays.
     let (few, many) = (&rays[..6], &rays[5..]);
     let fractions = [6, 10, 14, 16, 18, 22, 26, 30].map(|bits: u32| {
         let scene = cornell(&[&format!("precision.fraction={bits}")]);
@@ -216,7 +216,7 @@ fn said(name: &str, points: &[(f64, f64)]) -> String {
     format!("{name}: {from} to {to}, slope {slope:.2}")
 }
 
-/// The circuit's numbers against floating point.
+/// Compares the circuit's numbers with floating point.
 pub(super) fn width() -> Figure {
     let rendered = |fraction: u32, model: Model| -> Rendered {
         let scene = cornell(&[

@@ -1,14 +1,14 @@
-//! What comparators make of a colour.
+//! Quantization of a colour by comparators.
 
 use super::Figure;
 use qrt::core::scene::{Comparator, ComparatorAt};
 use qrt::drawing::{Canvas, Panel, minus, number, polyline, ticks};
 use qrt::runtime::counting::Comparators;
 
-/// c, for eight comparators.
+/// c, for C = 8 comparators.
 const BITS: u32 = 3;
 
-/// The error of edges and midpoints over the colour.
+/// Draws the error of edges and midpoints over the colour.
 pub(super) fn errors() -> Figure {
     let title = "Error of C = 8 comparators, in steps h of the colour scale";
     let mut canvas = Canvas::new(title, 580.0, 450.0);
@@ -42,7 +42,7 @@ pub(super) fn errors() -> Figure {
         let label = if k == 1 { "colour x, in steps h" } else { "" };
         panel.axes(&mut canvas, [&colours, &levels], [label, "error / h"]);
         canvas.path("axis", &panel.curve([[0.0, 0.0], [8.0, 0.0]]));
-        // Straight between thresholds: each stretch from its start to its end.
+        // The error is linear between thresholds: each piece is drawn from its start to its end.
         let first = if at == ComparatorAt::Edges { 0.0 } else { 0.5 };
         let mut breaks = vec![0.0];
         breaks.extend((0..8).map(|y| first + f64::from(y)).filter(|x| *x > 0.0));

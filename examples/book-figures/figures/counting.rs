@@ -1,4 +1,4 @@
-//! What counting measures, and what is inferred from it.
+//! Measurements of counting, and the inference from them.
 
 use super::Figure;
 use qrt::core::scene::Window;
@@ -16,7 +16,7 @@ fn third(window: Window) -> PhaseDistribution {
     PhaseDistribution::new(GOOD[0], GOOD[1], PHASE_BITS, window).expect("a distribution")
 }
 
-/// The distribution around theta.
+/// Draws the distribution around theta.
 pub(super) fn distribution() -> Figure {
     let title = "What a phase register of T = 1024 reads at θ = 1/3";
     let mut canvas = Canvas::new(title, 580.0, 360.0);
@@ -70,10 +70,10 @@ pub(super) fn distribution() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// Steps from T theta that the windows are shown over.
+/// Largest distance from T theta, in steps, over which the windows are shown.
 const REACH: i64 = 20;
 
-/// Both windows, with the tails.
+/// Draws both windows, with the tails.
 pub(super) fn windows() -> Figure {
     let title = "Rectangular and sine window: T = 1024, θ = 1/3";
     let mut canvas = Canvas::new(title, 580.0, 400.0);
@@ -132,7 +132,7 @@ const SMALL: u32 = 5;
 const IDS: u64 = 1 << 11;
 const TRUE: u64 = 707;
 
-/// Posteriors after B runs of the paper's counting.
+/// Draws posteriors after B runs of the paper's counting.
 pub(super) fn posteriors() -> Figure {
     let known = PhaseDistribution::new(TRUE, IDS, SMALL, Window::Rect).expect("a distribution");
     let sampler = known.sampler();
@@ -203,7 +203,7 @@ pub(super) fn posteriors() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// What a register reads where nothing, one, half, all but one or all indices are good.
+/// Draws the distribution of a register if no, one, half, all but one or all indices are good.
 pub(super) fn ends() -> Figure {
     const BITS: u32 = 5;
     const TOTAL: u64 = 1024;
@@ -254,7 +254,7 @@ pub(super) fn ends() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// What each outcome of a short run has of the probability, and brings to the mean square error.
+/// Draws each outcome of a short run: its probability, and its part in the mean square error.
 pub(super) fn tail() -> Figure {
     const BITS: u32 = 4;
     let title = "One index of four is good, T = 16: one run, rectangular window";

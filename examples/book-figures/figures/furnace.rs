@@ -1,4 +1,4 @@
-//! The furnace: rendered at every depth, and what the formula says.
+//! The furnace: pictures at every depth, and the values by the formula.
 
 use super::{Figure, root};
 use qrt::core::front;
@@ -6,12 +6,12 @@ use qrt::core::scene::Estimator;
 use qrt::drawing::{Canvas, Panel, ticks};
 use qrt::runtime::render::{Model, Options, render};
 
-/// The furnace's emission and albedo.
+/// Emission and albedo of the furnace.
 const EMITTED: [f64; 3] = [0.15, 0.2, 0.15];
 const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];
 const LONGEST: i32 = 8;
 
-/// One pixel of the furnace for paths of so many rays, by the circuit's program on integers.
+/// Returns one pixel of the furnace for paths of `depth` rays, by the circuit's program on integers.
 fn pixel(depth: i32) -> [f64; 3] {
     let rays = vec!["{ bits: [2, 2] }"; depth as usize].join(", ");
     let sets = [

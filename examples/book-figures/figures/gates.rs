@@ -1,4 +1,4 @@
-//! Small circuits, gate by gate, each run on amplitudes as it is drawn.
+//! Small circuits, gate by gate. Each is run on amplitudes as it is drawn.
 
 use super::Figure;
 use qrt::circuit::quantum::QuantumGate::{self, Ccx, Cx, H, Phase, X};
@@ -6,7 +6,7 @@ use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, Turns, W
 use qrt::runtime::draw::Wires;
 use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError};
 
-/// The real amplitudes of a register after gates.
+/// Returns the real amplitudes of a register after `gates`.
 fn amplitudes(qubits: u32, gates: &[QuantumGate<'_>]) -> Result<Vec<f64>, StateVectorError> {
     let mut machine = Dense::new(qubits)?;
     for gate in gates {
@@ -17,7 +17,7 @@ fn amplitudes(qubits: u32, gates: &[QuantumGate<'_>]) -> Result<Vec<f64>, StateV
         .collect())
 }
 
-/// What a forgotten copy does.
+/// Draws the effect of a copy that is not uncomputed.
 pub(super) fn garbage() -> Figure {
     let mut wires = Wires::new(&[("qubit", "id"), ("ancilla", "work")]);
     let gates = [H(0), Cx(0, 1), Cx(0, 1), H(0)];
@@ -38,14 +38,14 @@ pub(super) fn garbage() -> Figure {
     Figure::drawn(wires.draw("A copy, and its end"), says)
 }
 
-/// The index's qubits, and the flag's.
+/// Names and classes of the index's qubits and the flag.
 const INDEX_AND_FLAG: [(&str, &str); 3] = [
     ("index, bit 0", "id"),
     ("index, bit 1", "id"),
     ("flag", "flag"),
 ];
 
-/// The signs of the four indices, if the flag is zero in all.
+/// Returns the signs of the four indices, and asserts that the flag is zero in all.
 fn signs(gates: &[QuantumGate<'_>]) -> String {
     let found = amplitudes(3, gates).expect("a state");
     assert!(found[4..].iter().all(|amplitude| amplitude.abs() < 1e-12));
@@ -55,7 +55,7 @@ fn signs(gates: &[QuantumGate<'_>]) -> String {
     signs.collect()
 }
 
-/// A phase oracle that flips by Z.
+/// Draws a phase oracle that flips the phase by Z.
 pub(super) fn flip() -> Figure {
     let mut wires = Wires::new(&INDEX_AND_FLAG);
     let z = Phase {
@@ -80,7 +80,7 @@ pub(super) fn flip() -> Figure {
     Figure::drawn(wires.draw("Compute, flip, uncompute"), says)
 }
 
-/// The same by kickback.
+/// Draws the same oracle with phase kickback.
 pub(super) fn kickback() -> Figure {
     let mut wires = Wires::new(&INDEX_AND_FLAG);
     let gates = [H(0), H(1), X(2), H(2), Ccx(0, 1, 2), H(2), X(2)];
@@ -99,7 +99,7 @@ pub(super) fn kickback() -> Figure {
     Figure::drawn(wires.draw("Phase kickback"), says)
 }
 
-/// Gates under a name.
+/// Adds `gates` as a part with the name `name`.
 fn staged(wires: &mut Wires, name: &str, gates: &[QuantumGate<'_>]) {
     wires.part(name);
     for gate in gates {
@@ -107,7 +107,7 @@ fn staged(wires: &mut Wires, name: &str, gates: &[QuantumGate<'_>]) {
     }
 }
 
-/// Phase estimation of 3/8 with three bits: the wave, and the inverse Fourier transform.
+/// Draws phase estimation of 3/8 with three bits: the wave, and the inverse Fourier transform.
 pub(super) fn fourier() -> Figure {
     let mut wires = Wires::new(&[
         ("phase, bit 0", "solid s5"),
@@ -165,7 +165,7 @@ pub(super) fn fourier() -> Figure {
     Figure::drawn(wires.draw("A wave, and what reads its frequency"), says)
 }
 
-/// Grover's iterate.
+/// Draws Grover's iterate.
 pub(super) fn iterate() -> Figure {
     const NAMES: [(&str, &str); 3] = [
         ("index, bit 0", "id"),
@@ -207,7 +207,7 @@ pub(super) fn iterate() -> Figure {
     )
 }
 
-/// The whole of counting, in boxes.
+/// Draws the whole counting circuit, in boxes.
 pub(super) fn counting() -> Figure {
     const BITS: u32 = 3;
     let oracle = PhaseOracle::polynomial(3, vec![vec![0, 2]]).expect("an oracle");

@@ -1,4 +1,4 @@
-//! Where rays go and what they are asked: a path, a face's edges, a point on a lamp.
+//! Geometry of rays: a path, the edges of a face, and a point on a lamp.
 
 use super::{Figure, cornell, scene};
 use qrt::core::tracer::Geometry;
@@ -6,10 +6,10 @@ use qrt::drawing::{Canvas, Panel, polyline};
 use qrt::runtime::predicates::trace_path_of;
 use qrt::runtime::render::Model;
 
-/// A path of the Cornell box, from the side.
+/// Draws a path of the Cornell box, from the side.
 pub(super) fn path() -> Figure {
     let scene = cornell(&["film={ width: 16, height: 16 }", "sampling.path_bits=12"]);
-    // The first path that meets floor or wall twice, and then the lamp.
+    // Search for the first path that meets two of floor and walls, and then the lamp.
     let found = (0..16_u32 * 16).find_map(|pixel| {
         (0..1_u64 << 12).find_map(|id| {
             let place = [pixel % 16, 8 + pixel / 16 % 8];
@@ -99,7 +99,7 @@ geometry:
   - triangle: { vertices: [[1, -1.4, 0], [4, -0.8, 0], [2, 1.4, 0]], material: white }
 ";
 
-/// Half-plane edge tests.
+/// Draws half-plane edge tests.
 pub(super) fn edges() -> Figure {
     let scene = scene(FACES, "faces.yaml");
     let geometry = Geometry::new(scene.polygons(), |_| false, &[]);
@@ -142,7 +142,7 @@ pub(super) fn edges() -> Figure {
             let class = format!("s{number}");
             let [a, b] = test.form;
             let form = |p: [f64; 2]| a * p[0] + b * p[1];
-            // Where the test passes, within the panel.
+            // The part of the panel in which the test passes.
             let [left, right] = panel.x;
             let [bottom, top] = panel.y;
             let whole = vec![[left, bottom], [right, bottom], [right, top], [left, top]];
@@ -184,7 +184,7 @@ pub(super) fn edges() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// The part of a polygon where a linear form is not negative.
+/// Returns the part of a polygon where a linear form is not negative.
 fn cut(polygon: &[[f64; 2]], form: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();
     for (k, from) in polygon.iter().enumerate() {
@@ -201,7 +201,7 @@ fn cut(polygon: &[[f64; 2]], form: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
     kept
 }
 
-/// The part of the line a x + b y = bound that is in a panel.
+/// Returns the part of the line a x + b y = bound that is in a panel.
 fn clipped(panel: &Panel, [a, b]: [f64; 2], bound: f64) -> Option<[[f64; 2]; 2]> {
     let square = a * a + b * b;
     let start = [a * bound / square, b * bound / square];
@@ -218,7 +218,7 @@ fn clipped(panel: &Panel, [a, b]: [f64; 2], bound: f64) -> Option<[[f64; 2]; 2]>
     (bound.is_finite() && ends[0] < ends[1]).then(|| ends.map(at))
 }
 
-/// A vertex that is connected to a point on a lamp.
+/// Draws a vertex that is connected to a point on a lamp.
 pub(super) fn lamp() -> Figure {
     let mut canvas = Canvas::new("The same light, found in two ways", 650.0, 280.0);
     let (x, y) = ([190.0, 236.0], [360.0, 70.0]);

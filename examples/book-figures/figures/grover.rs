@@ -7,12 +7,12 @@ use qrt::drawing::{Canvas, Panel, number, polyline, ticks};
 use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError, fold};
 use std::f64::consts::PI;
 
-/// An oracle of `2^bits` indices, the first of them good.
+/// Returns an oracle of `2^bits` indices, the first `good` of them good.
 fn oracle(bits: u32, good: u64) -> PhaseOracle {
     PhaseOracle::table(bits, |id| id < good).expect("an oracle")
 }
 
-/// Probabilities of a good index after 0, 1, ... iterations.
+/// Returns the probabilities of a good index after 0, 1, ... iterations.
 fn turned(bits: u32, good: usize, iterations: usize) -> Result<Vec<f64>, StateVectorError> {
     let oracle = oracle(bits, good as u64);
     let iterate = GroverIterate::new(&oracle);
@@ -31,7 +31,7 @@ fn turned(bits: u32, good: usize, iterations: usize) -> Result<Vec<f64>, StateVe
     Ok(found)
 }
 
-/// The plane of good and bad indices.
+/// Draws the plane of good and bad indices.
 pub(super) fn plane() -> Figure {
     const BITS: u32 = 6;
     const GOOD: usize = 3;
@@ -103,8 +103,8 @@ pub(super) fn plane() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// The phase register's distribution; with the Z that makes O_0's sign right under a control, or
-/// without.
+/// Returns the phase register's distribution. Unless `right`, leaves out the Z that corrects O_0's sign
+/// under a control.
 fn counted(counting: &Counting<'_>, right: bool) -> Result<Vec<f64>, StateVectorError> {
     let mut machine = Dense::new(counting.qubits())?;
     counting.part(Part::Counting, &mut |gate| match gate {
@@ -118,7 +118,7 @@ fn counted(counting: &Counting<'_>, right: bool) -> Result<Vec<f64>, StateVector
     Ok(fold(&machine.distribution(counting.phase_register())?))
 }
 
-/// What the sign of O_0 does.
+/// Draws the effect of the sign of O_0.
 pub(super) fn sign() -> Figure {
     const BITS: u32 = 6;
     const GOOD: u64 = 13;

@@ -11,7 +11,7 @@ struct Table {
 }
 
 impl Table {
-    /// Reads a table; lines that begin with `#` say where it is from.
+    /// Reads a table; lines that begin with `#` name its source.
     fn read(name: &str) -> Self {
         let file = root().join("book/data").join(name);
         let text = std::fs::read_to_string(&file);
@@ -29,7 +29,7 @@ impl Table {
         at.unwrap_or_else(|| panic!("no column {name}"))
     }
 
-    /// Different values of a column, in their order.
+    /// Returns the different values of a column, in their order.
     fn values(&self, name: &str) -> Vec<String> {
         let at = self.column(name);
         let mut found: Vec<String> = Vec::new();
@@ -41,7 +41,7 @@ impl Table {
         found
     }
 
-    /// Numbers of the columns `of`, in rows whose cells are as asked.
+    /// Returns the numbers in the columns `of`, from rows whose cells have the values in `asked`.
     fn numbers<const N: usize>(&self, asked: &[(&str, &str)], of: [&str; N]) -> Vec<[f64; N]> {
         let columns = of.map(|name| self.column(name));
         let asked: Vec<(usize, &str)> = (asked.iter())
@@ -61,7 +61,7 @@ fn slope(points: &[[f64; 2]]) -> f64 {
     Fit::of(logarithms).map_or(0.0, |fit| fit.slope)
 }
 
-/// Error over the number of paths.
+/// Draws the error over the number of paths.
 pub(super) fn truncation() -> Figure {
     let table = Table::read("truncation.csv");
     let names = table.values("paths");
@@ -97,7 +97,7 @@ pub(super) fn truncation() -> Figure {
     Figure::drawn(plot.draw(), says)
 }
 
-/// Every estimator on a kind of amplitudes.
+/// Draws every estimator on one kind of amplitudes.
 fn estimators(amplitudes: &str, error: &str, title: &str, axis: &str, what: &str) -> Figure {
     let table = Table::read("estimators.csv");
     let names = table.values("estimator");
@@ -164,7 +164,7 @@ pub(super) fn estimators_pixels() -> Figure {
     )
 }
 
-/// Points (queries, error) of rows, from the fewest queries on.
+/// Returns the points (queries, error) of rows, in ascending order of queries.
 fn points(table: &Table, asked: &[(&str, &str)], error: &str) -> Vec<Point> {
     let [low, high] = ["low", "high"].map(|end| format!("{error}_{end}"));
     let numbers = table.numbers(asked, ["queries", error, &low, &high]);
@@ -175,7 +175,7 @@ fn points(table: &Table, asked: &[(&str, &str)], error: &str) -> Vec<Point> {
     points
 }
 
-/// A scene's settings: error against queries.
+/// Draws a scene's settings: error against queries.
 pub(super) fn trade() -> Figure {
     let table = Table::read("trade.csv");
     let bare = |point: Point| Point {
@@ -184,7 +184,7 @@ pub(super) fn trade() -> Figure {
         ..point
     };
     let mut rest = Vec::new();
-    // Neither of other lengths of paths, nor of fewer pixels and no circuit.
+    // These sweeps have other lengths of paths, or fewer pixels and no circuit.
     let others = ["depth", "beside-rivals", "random-paths", "classical-net"];
     for sweep in table.values("sweep") {
         if !others.contains(&sweep.as_str()) {
@@ -242,7 +242,7 @@ pub(super) fn trade() -> Figure {
     Figure::drawn(plot.draw(), says)
 }
 
-/// Where the error comes from.
+/// Draws the parts of the error.
 pub(super) fn parts() -> Figure {
     const PARTS: [(&str, &str); 5] = [
         ("total", "e_total"),
@@ -282,7 +282,7 @@ pub(super) fn parts() -> Figure {
     Figure::drawn(plot.draw(), says)
 }
 
-/// Counting beside random paths, and beside a net that is run classically.
+/// Compares counting with random paths, and with a net that is run classically.
 pub(super) fn rivals() -> Figure {
     const ALL: [(&str, &str, &str); 3] = [
         ("beside-rivals", "e_t", "counting"),

@@ -1,4 +1,4 @@
-//! All figures of the book, each from the library's own code or from a measured table in
+//! All figures of the book. Each comes from the library's own code or from a measured table in
 //! `book/data`.
 
 mod call;
@@ -21,17 +21,17 @@ use qrt::drawing::Canvas;
 use qrt::runtime::image::{Encoding, Image, Metadata, save};
 use std::path::{Path, PathBuf};
 
-/// A figure that is made.
+/// A finished figure.
 pub(crate) struct Figure {
     pub(crate) body: Body,
-    /// What it shows, in numbers.
+    /// Description of the figure, with its numbers.
     pub(crate) says: String,
 }
 
-/// What is in its file.
+/// Content of a figure's file.
 pub(crate) enum Body {
     Svg(String),
-    /// As a PNG, shown at an exposure in stops.
+    /// A picture for a PNG, and its exposure in stops.
     Picture(Image, f64),
 }
 
@@ -42,7 +42,7 @@ impl Figure {
         Self { body, says }
     }
 
-    /// Writes it; `about` says in a picture's metadata where it is from.
+    /// Writes the figure; the metadata of a picture name the command that makes it.
     pub(crate) fn write(&self, file: &Path) {
         match &self.body {
             Body::Svg(svg) => std::fs::write(file, svg).expect("the figure is written"),
@@ -112,17 +112,17 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Where the figures are.
+/// Returns the folder of the figures.
 pub(crate) fn folder() -> PathBuf {
     root().join("book/src/figures")
 }
 
-/// The style of what comes in several figures, so that it has one colour in all of them.
+/// Returns the style of a name, so that it has the same colour in all figures.
 fn style(name: &str) -> usize {
     qrt::runtime::trade::style(name).unwrap_or_else(|| panic!("`{name}` has no style"))
 }
 
-/// The Cornell box of the example scenes, with overrides.
+/// Loads the Cornell box of the example scenes, with overrides.
 fn cornell(sets: &[&str]) -> ValidScene {
     let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
     let file = root().join("scenes-yaml/cornell-box.yaml");
@@ -130,7 +130,7 @@ fn cornell(sets: &[&str]) -> ValidScene {
     loaded.valid
 }
 
-/// A scene of a text.
+/// Parses a scene from a text.
 fn scene(text: &str, name: &str) -> ValidScene {
     let parsed = front::parse(text, name, &[], root());
     parsed.unwrap_or_else(|report| panic!("{report}")).valid

@@ -1,4 +1,4 @@
-//! Pictures, enlarged so that their pixels are seen.
+//! Pictures, enlarged so that their pixels are visible.
 
 use super::{Body, Figure, cornell, root, scene};
 use qrt::core::front;
@@ -11,16 +11,16 @@ use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
 use std::f64::consts::{PI, TAU};
 
-/// Between pictures of a strip, in their pixels.
+/// Width of the gap between pictures of a strip, in their pixels.
 const GAP: u32 = 2;
-/// What is between them: a grey that is neither page's.
+/// Colour of the gap: a grey that differs from the background of the light and the dark page.
 const BETWEEN: [f64; 3] = [0.1; 3];
 /// Pixels along each side of a picture of a strip.
 const SIDE: u32 = 48;
-/// Brighter by one stop, which strips and the picture of the gates machine are shown at.
+/// Exposure of strips and of the gates machine's picture, in stops.
 const EXPOSURE: f64 = 1.0;
 
-/// Each pixel as `times` x `times`.
+/// Returns the picture with each pixel as `times` x `times`.
 fn enlarged(image: &Image, times: u32) -> Image {
     let (width, height) = (times * image.width, times * image.height);
     let pixel = |k: u32| {
@@ -35,7 +35,7 @@ fn enlarged(image: &Image, times: u32) -> Image {
     }
 }
 
-/// Pictures of one size side by side.
+/// Joins pictures of one size side by side.
 fn strip(images: &[Image]) -> Image {
     let (side, count) = (SIDE, images.len() as u32);
     let width = count * side + (count - 1) * GAP;
@@ -56,7 +56,7 @@ fn strip(images: &[Image]) -> Image {
     }
 }
 
-/// The root of the mean square difference over the mean of `truth`.
+/// Returns the root of the mean square difference over the mean of `truth`.
 fn error(image: &Image, truth: &Image) -> f64 {
     let pairs = image.pixels.as_flattened().iter();
     let pairs = pairs.zip(truth.pixels.as_flattened());
@@ -73,7 +73,7 @@ fn rendered(scene: &ValidScene, options: &Options<'_>) -> (Image, f64) {
     (rendered.image, queries)
 }
 
-/// The Cornell box with its lamp sampled, half as large as the plain command renders it.
+/// Renders the Cornell box with its lamp sampled, half as large as the plain command renders it.
 pub(super) fn first() -> Figure {
     let file = root().join("scenes-yaml/lit-box.yaml");
     let film = ["film={ width: 128, height: 128 }".to_owned()];
@@ -88,7 +88,7 @@ pub(super) fn first() -> Figure {
     Figure { body, says }
 }
 
-/// The picture that these paths have on average.
+/// Returns the picture of the mean colours of the paths.
 fn mean_of(real: &Real) -> Image {
     let pixels: Vec<[u32; 2]> = (0..SIDE * SIDE).map(|k| [k % SIDE, k / SIDE]).collect();
     let paths = real.paths();
@@ -102,7 +102,7 @@ fn mean_of(real: &Real) -> Image {
     }
 }
 
-/// The same number of paths by three ways of choosing them.
+/// Shows the same number of paths by three ways of choosing them.
 pub(super) fn noise() -> Figure {
     let film = format!("film={{ width: {SIDE}, height: {SIDE} }}");
     let net = |bits: u32, seed: u64| {
@@ -129,7 +129,7 @@ pub(super) fn noise() -> Figure {
     Figure { body, says }
 }
 
-/// The same number of queries by five estimators.
+/// Shows the same number of queries by five estimators.
 pub(super) fn counted() -> Figure {
     let scene = cornell(&[
         &format!("film={{ width: {SIDE}, height: {SIDE} }}"),
@@ -176,7 +176,7 @@ const MATERIALS: [&str; 6] = [
      value: '0.1/pi + 2.2*(1-cos_i)^3*(1-cos_o)^3', pdf: '1/(2*pi)' }",
 ];
 
-/// A ball of triangles around (0, 1, 0), as lines of a scene.
+/// Returns a ball of triangles around (0, 1, 0), as lines of a scene.
 fn ball(rings: u32, sectors: u32) -> String {
     let corner = |ring: u32, sector: u32| {
         let polar = PI * f64::from(ring) / f64::from(rings);
@@ -192,7 +192,7 @@ fn ball(rings: u32, sectors: u32) -> String {
     let triangles = cells.flat_map(|(ring, sector)| {
         let at = |[r, s]: [u32; 2]| corner(ring + r, sector + s);
         let [a, b, c, d] = [[0, 0], [0, 1], [1, 1], [1, 0]].map(at);
-        // At the poles one of the two has no area. The front is outside.
+        // At the poles one of the two triangles has no area. The front faces outward.
         let lower = (ring + 1 < rings).then(|| format!("{a}, {c}, {d}"));
         let upper = (ring > 0).then(|| format!("{a}, {b}, {c}"));
         lower.into_iter().chain(upper)
@@ -202,7 +202,7 @@ fn ball(rings: u32, sectors: u32) -> String {
     lines.collect::<Vec<_>>().concat()
 }
 
-/// A ball of each material.
+/// Shows a ball of each material.
 pub(super) fn materials() -> Figure {
     let ball = ball(14, 28);
     let images = MATERIALS.map(|material| {
@@ -247,7 +247,7 @@ geometry:
     Figure { body, says }
 }
 
-/// The same 64 paths with lamps found by chance, and aimed at.
+/// Shows the same 64 paths with lamps found by chance, and with lamps sampled.
 pub(super) fn lights() -> Figure {
     let images = ["none", "mis", "auto"].map(|lights| {
         let sets = [
@@ -268,7 +268,7 @@ pub(super) fn lights() -> Figure {
 
 /// Pixels along each side of the gates machine's picture.
 const GATES: u32 = 32;
-/// How much larger it is shown.
+/// Factor by which it is enlarged.
 const TIMES: u32 = 8;
 
 fn small_box() -> ValidScene {
@@ -278,12 +278,12 @@ fn small_box() -> ValidScene {
     ])
 }
 
-/// The Cornell box by gates.
+/// Renders the Cornell box by gates.
 pub(super) fn gates() -> Figure {
     by_gates(Model::Gates)
 }
 
-/// As [`gates`], by a model that makes the same picture.
+/// Same as [`gates`], by a model that makes the same picture.
 pub(crate) fn by_gates(model: Model) -> Figure {
     let options = Options {
         model,
@@ -300,7 +300,7 @@ pub(crate) fn by_gates(model: Model) -> Figure {
     Figure { body, says }
 }
 
-/// A part of the same picture by gates, and the same part of `whole`.
+/// Renders a part of the same picture by gates, and returns it with the same part of `whole`.
 #[allow(dead_code, reason = "the test's")]
 pub(crate) fn gates_crop(whole: &Image) -> [Vec<[f64; 3]>; 2] {
     const CROP: [u32; 4] = [13, 11, 4, 4];

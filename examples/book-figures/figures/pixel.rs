@@ -1,4 +1,4 @@
-//! The pixel that is built step by step: pictures of what `examples/one_pixel.rs` computes.
+//! The pixel that the book builds step by step: figures of the results of `examples/one_pixel.rs`.
 
 #[path = "../../one_pixel.rs"]
 #[allow(dead_code, reason = "the program's own `main`")]
@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 /// The cells of the ceiling: left edge of the first, width.
 const CELLS: [f64; 2] = [50.0, 60.0];
 
-/// The eight paths.
+/// Draws the eight paths.
 pub(super) fn paths() -> Figure {
     let colours = program::colours().expect("colours");
     let mut canvas = Canvas::new("Eight paths of one pixel", 580.0, 300.0);
@@ -55,7 +55,7 @@ pub(super) fn paths() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// The oracle in boxes.
+/// Draws the oracle in boxes.
 pub(super) fn oracle() -> Figure {
     let oracle = program::oracle().expect("an oracle");
     let mut wires = Wires::new(&[
@@ -88,7 +88,7 @@ pub(super) fn oracle() -> Figure {
     Figure::drawn(wires.draw("One query of the pixel"), says)
 }
 
-/// Which indices are good, and their signs.
+/// Draws the good indices, and their signs.
 pub(super) fn indices() -> Figure {
     let good = program::good().expect("indices");
     let oracle = program::oracle().expect("an oracle");
@@ -135,7 +135,7 @@ pub(super) fn indices() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// What an iterate does to the amplitudes.
+/// Draws the effect of an iterate on the amplitudes.
 pub(super) fn amplified() -> Figure {
     let good = program::good().expect("indices");
     let oracle = program::oracle().expect("an oracle");
@@ -188,7 +188,7 @@ pub(super) fn amplified() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// What the phase register reads.
+/// Draws the distribution of the phase register.
 pub(super) fn counted() -> Figure {
     let oracle = program::oracle().expect("an oracle");
     let (outcomes, _) = program::count(&oracle, 1).expect("outcomes");

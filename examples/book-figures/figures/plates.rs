@@ -1,10 +1,10 @@
-//! A scene with a known answer at any length of paths: two parallel plates, half of each aglow.
+//! A scene with a known answer at any length of paths: two parallel plates, of which half glows.
 //!
 //! Between infinite plates at distance 1 that scatter with the cosine, each bounce moves a path
 //! along x by an independent step of density `1 / (2 (1 + x^2)^(3/2))`, whose characteristic
 //! function is `w K_1(w)`. Beyond x = c both plates shine with radiance 1, and all reflect the
-//! fraction RHO. So a path's expected colour is a sum of probabilities that so many steps lead
-//! beyond c, each of them one integral.
+//! fraction RHO. So a path's expected colour is a sum of the probabilities that 0, 1, 2, ... steps
+//! lead beyond c, each of them one integral.
 
 use super::{Figure, scene, style};
 use qrt::core::valid::ValidScene;
@@ -15,7 +15,7 @@ use qrt::runtime::workers::Workers;
 use std::f64::consts::PI;
 
 const RHO: f64 = 0.8;
-/// Where the glow begins: inside of a pixel.
+/// Position where the glow begins: inside of a pixel.
 const EDGE: f64 = 0.03;
 /// Pixels along each side of a film of size 1.
 const SIDE: u32 = 8;
@@ -23,7 +23,7 @@ const SIDE: u32 = 8;
 const PATH_BITS: u32 = 12;
 const LONGEST: usize = 8;
 
-/// Bits of a lattice spread over so many coordinates, the earlier first.
+/// Spreads the bits of a lattice over `coordinates` coordinates, the earlier first.
 fn spread(coordinates: usize) -> Vec<u32> {
     let n = coordinates as u32;
     (0..n)
@@ -69,7 +69,7 @@ sampling: {{ sequence: {sequence}, path_bits: {PATH_BITS}, depths: [{}] }}
     scene(&text, "plates.yaml")
 }
 
-/// `w K_1(w)`, of the integral of `exp(-w cosh t) cosh t` by the trapezoidal rule.
+/// Returns `w K_1(w)`, the integral of `w exp(-w cosh t) cosh t`, by the trapezoidal rule.
 fn characteristic(w: f64) -> f64 {
     if w == 0.0 {
         return 1.0;
@@ -82,10 +82,10 @@ fn characteristic(w: f64) -> f64 {
     w * step * (0.5 * term(0) + (1..160).map(term).sum::<f64>())
 }
 
-/// The pixel of a column of the film for every length of paths up to the longest.
+/// Returns the pixel of a column of the film for every length of paths up to the longest.
 fn known(column: u32, phi: &[f64], step: f64) -> Vec<f64> {
     let width = 1.0 / f64::from(SIDE);
-    // The film's right is where x is least.
+    // x is least at the film's right edge.
     let middle = 0.5 - (f64::from(column) + 0.5) * width - EDGE;
     let mut sum = (middle / width + 0.5).clamp(0.0, 1.0);
     let mut all = vec![sum];
@@ -108,7 +108,7 @@ fn known(column: u32, phi: &[f64], step: f64) -> Vec<f64> {
     all
 }
 
-/// The error of both sequences, and of random paths, over the length of paths.
+/// Draws the error of both sequences, and of random paths, over the length of paths.
 pub(super) fn dimensions() -> Figure {
     let step = 0.02;
     let phi: Vec<f64> = (0..=1500)

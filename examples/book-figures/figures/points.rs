@@ -1,4 +1,4 @@
-//! Where paths' sample points lie, in the square and on the hemisphere.
+//! Sample points of paths, in the square and on the hemisphere.
 
 use super::{Figure, style};
 use qrt::core::expr::Variables;
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// Bits of u and v.
 const LATTICE: [u32; 2] = [3, 4];
 
-/// The lattice's points, each with the band of u that it is drawn in.
+/// The lattice's points, each with the number of its band of u.
 struct Bands(Vec<(usize, Variables)>);
 
 impl Bands {
@@ -40,7 +40,7 @@ impl Bands {
         Self(all.collect())
     }
 
-    /// The points of each band, with the class that it is drawn with.
+    /// Returns the points of each band, with the class of the band's colour.
     fn each(&self) -> impl Iterator<Item = (String, Vec<&Variables>)> {
         (0..Self::COUNT).map(|wanted| {
             let of = self.0.iter().filter(|(band, _)| *band == wanted);
@@ -49,7 +49,7 @@ impl Bands {
     }
 }
 
-/// The lattice in the square and on the hemisphere.
+/// Draws the lattice in the square and on the hemisphere.
 pub(super) fn hemispheres() -> Figure {
     let title = "One lattice of 8 × 16 cells, and where two maps send it";
     let mut canvas = Canvas::new(title, 580.0, 350.0);
@@ -77,7 +77,7 @@ pub(super) fn hemispheres() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// The lattice as it is.
+/// Draws the lattice itself.
 fn square(canvas: &mut Canvas, bands: &Bands, top: f64) {
     let (left, side) = (44.0, 140.0);
     canvas.text("mid", [left + 70.0, 52.0], "the square");
@@ -91,8 +91,8 @@ fn square(canvas: &mut Canvas, bands: &Bands, top: f64) {
     canvas.text("soft mid", [left - 14.0, top + 74.0], "u");
 }
 
-/// Where a map sends the lattice, from above and from the side; and how many directions lie lower
-/// than 30 degrees.
+/// Draws the image of the lattice under a map, from above and from the side; returns the number of
+/// directions lower than 30 degrees.
 fn hemisphere(canvas: &mut Canvas, bands: &Bands, map: Map, [middle, top]: [f64; 2]) -> usize {
     let phi = maps::builtin(map);
     let (above, below, radius) = ([middle, top + 70.0], [middle, top + 240.0], 84.0);
@@ -121,13 +121,13 @@ fn hemisphere(canvas: &mut Canvas, bands: &Bands, map: Map, [middle, top]: [f64;
     low
 }
 
-/// Paths in the projections: 2^8.
+/// Log2 of the number of paths in the projections.
 const PATH_BITS: u32 = 8;
 
 /// Paths of three rays, by the six coordinates of each.
 type Paths = Vec<[f64; 6]>;
 
-/// The paths of a sequence, with so many bits for each ray's u and v.
+/// Returns the paths of a sequence, with `bits` bits for each ray's u and v.
 fn paths(sequence: Sequence, bits: [[u32; 2]; 3]) -> Paths {
     let sampling = Sampling {
         sequence,
@@ -148,7 +148,7 @@ fn paths(sequence: Sequence, bits: [[u32; 2]; 3]) -> Paths {
         .collect()
 }
 
-/// Two-dimensional projections of three sets of paths.
+/// Draws two-dimensional projections of three sets of paths.
 pub(super) fn projections() -> Figure {
     let title = "256 paths of three rays: six coordinates, two at a time";
     let mut canvas = Canvas::new(title, 580.0, 590.0);
@@ -195,8 +195,8 @@ pub(super) fn projections() -> Figure {
     Figure::drawn(canvas, says)
 }
 
-/// Draws two coordinates of paths into a square, maybe as large as they are many; how many points
-/// are different.
+/// Draws two coordinates of paths into a square. With `by_number`, a point's size grows with the number
+/// of paths on it. Returns the number of different points.
 fn projection(
     canvas: &mut Canvas,
     class: &str,

@@ -44,7 +44,7 @@ def _array(self: Any, dtype: Any = None, copy: bool | None = None) -> numpy.ndar
 
 
 def _oracle_html(self: Any) -> str:
-    """What a call of the oracle costs, as a table."""
+    """The cost of a call of the oracle, as a table."""
     rows = [
         ("qubits", self.qubits),
         ("Toffoli", self.toffoli),

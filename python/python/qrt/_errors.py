@@ -1,4 +1,4 @@
-"""What qrt raises."""
+"""The exceptions and warnings of qrt."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class SceneError(Error, ValueError):
 
 
 class RequestError(Error, ValueError):
-    """What was asked for does not exist, or does not go together."""
+    """A request that names what does not exist, or combines what does not go together."""
 
 
 class JobError(Error, RuntimeError):
@@ -57,4 +57,4 @@ class MergeError(Error, ValueError):
 
 
 class SceneWarning(UserWarning):
-    """What is not wrong with a scene, but surely not meant."""
+    """Something in a scene that is not wrong, but surely not meant."""

@@ -8,7 +8,7 @@ from typing import Literal, TypedDict
 
 
 class PictureOptions(TypedDict, total=False):
-    """What decides a picture, and what it may take: see `Scene.render`."""
+    """The options that decide a picture, and its resources: see `Scene.render`."""
 
     model: Literal["real", "fixed", "gates"]
     estimator: str | None

@@ -1,4 +1,4 @@
-"""Who is told how far a render is."""
+"""Listeners for the progress of a render."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _is_notebook() -> bool:
 
 
 def listener(progress: Any) -> Any:
-    """What is called with paths done and all paths, and closed at the end; None if nobody is told.
+    """A listener for paths done and all paths, closed at the end; None if there is no listener.
 
     `progress` is a function of the two, False for nobody, True for a bar of tqdm, and None for a bar in a
     terminal or a notebook.

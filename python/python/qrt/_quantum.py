@@ -60,7 +60,7 @@ def to_pennylane(self: Any, part: str = "oracle") -> Any:
     """
     import pennylane
 
-    # It takes neither of these.
+    # PennyLane supports neither `measure` nor `include`.
     lines = self.qasm(3, part).splitlines()
     lines = [line for line in lines if "measure" not in line and "include" not in line]
     return pennylane.from_qasm3("\n".join(lines), {})

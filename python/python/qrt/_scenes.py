@@ -11,7 +11,7 @@ from . import _qrt
 
 
 def _plain(value: Any) -> Any:
-    """What JSON does not know: arrays and numbers of numpy."""
+    """The plain value of arrays and numbers of numpy, which JSON does not know."""
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(f"{type(value).__name__} has no place in a scene")

@@ -1,4 +1,4 @@
-//! `qrt diff`: how far a picture is from another.
+//! `qrt diff`: the error of a picture against a reference.
 
 mod read;
 
@@ -59,7 +59,7 @@ pub(crate) struct DiffArgs {
     max_memory: Option<u64>,
 }
 
-/// So many that filters stay smaller than most pictures.
+/// Parses pixels per degree; the bound of 1,000 keeps filters smaller than most pictures.
 fn pixels_per_degree(text: &str) -> Result<f64, String> {
     let asked: Option<f64> = text.parse().ok();
     asked
@@ -164,7 +164,7 @@ fn text(args: &DiffArgs, reference: &Image, found: &Difference, flip: &ErrorMap)
     )
 }
 
-/// Three digits that count.
+/// Formats `value` with three significant digits.
 fn short(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {

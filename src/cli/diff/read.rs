@@ -1,4 +1,4 @@
-//! Pictures of any program: PNG and OpenEXR.
+//! Reads pictures of any program: PNG and OpenEXR.
 
 mod exr_picture;
 mod png_colour;
@@ -15,7 +15,7 @@ use std::path::Path;
 /// A picture that was read.
 pub(super) struct Picture {
     pub(super) image: Image,
-    /// The part of the display window that the pixels are; none where the format has no windows.
+    /// Position of the pixels in the display window; `None` if the format has no windows.
     pub(super) place: Option<PlaceInFrame>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct PlaceInFrame {
     pub(super) frame: [u64; 2],
 }
 
-/// The refusal of a file as a picture.
+/// Returns the error that refuses a file as a picture.
 fn refused(path: &Path, why: &str) -> Failure {
     Failure::Job(format!("`{}`: {why}", path.display()))
 }
@@ -50,7 +50,7 @@ fn is_rec_709(found: [[f64; 2]; 4]) -> bool {
     pairs.fold(true, |all, (a, b)| all && (a - b).abs() <= ROUNDING)
 }
 
-/// Chromaticities in words.
+/// Describes chromaticities in words.
 fn in_words(chromaticities: [[f64; 2]; 4]) -> String {
     let names = ["red", "green", "blue", "white"].into_iter();
     let each = names.zip(chromaticities);

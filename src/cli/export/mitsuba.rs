@@ -1,4 +1,4 @@
-//! The scene for Mitsuba 3.
+//! Exports the scene for Mitsuba 3.
 
 use super::ExportArgs;
 use crate::cli::failure::Failure;
@@ -50,7 +50,7 @@ pub(super) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let inputs = scene.files().iter().map(PathBuf::as_path);
     keep_apart(inputs.chain([&*args.scene.scene]), &all)?;
     all.iter().try_for_each(|output| output.try_writing())?;
-    // The scene last: when it is there, so are the files that it names.
+    // The scene is written last, so that the files that it names exist when it does.
     for (output, mesh) in beside.iter().zip(&meshes) {
         write(output, &mesh.bytes)?;
     }

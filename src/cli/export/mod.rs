@@ -1,4 +1,4 @@
-//! `qrt export`: a pixel's circuit, or the scene, for other programs.
+//! `qrt export`: writes a pixel's circuit, or the scene, for other programs.
 
 mod mitsuba;
 
@@ -27,7 +27,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What is written, and for whom.
+/// The output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Language {
     /// A circuit.
@@ -66,7 +66,7 @@ const PARTS: [(Part, &str); 3] = [
     (Part::Counting, "The whole circuit of quantum counting"),
 ];
 
-/// Bytes of a gate's line, of a circuit of some 10,000 to 100,000 qubits.
+/// Bytes of a gate's line in a circuit of some 10,000 to 100,000 qubits.
 const BYTES_A_GATE: u64 = 28;
 
 /// Write a pixel's circuit as OpenQASM, or the scene for Mitsuba 3
@@ -103,7 +103,7 @@ pub(crate) struct ExportArgs {
     /// The language
     #[arg(long, value_parser = choice(LANGUAGES, Language::name), default_value = "openqasm3")]
     format: Language,
-    /// Which part of the circuit [default: oracle]
+    /// The part of the circuit [default: oracle]
     #[arg(long, value_parser = choice(PARTS, part_name))]
     part: Option<Part>,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
@@ -152,7 +152,7 @@ fn part_name(part: Part) -> &'static str {
     }
 }
 
-/// What a part does, for whoever reads the file.
+/// Returns the comment that describes a part, for readers of the file.
 fn about(part: Part) -> &'static [&'static str] {
     match part {
         Part::Oracle => &[
@@ -169,7 +169,7 @@ fn about(part: Part) -> &'static [&'static str] {
     }
 }
 
-/// Qubits and gates of a part that the oracle does not have, in words.
+/// Returns, in words, the qubits and gates of a part that the oracle does not have.
 fn beside_oracle(part: Part) -> Option<&'static str> {
     match part {
         Part::Oracle => None,
@@ -190,7 +190,7 @@ fn stratum(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-/// The stratum that is asked for, of a comparator of so many bits.
+/// Returns the requested stratum of a comparator of `bits` bits.
 fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> {
     let Some((number, strata)) = args.stratum else {
         return Ok(None);
@@ -212,7 +212,7 @@ fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> 
     Ok(Stratum::halving(strata, bits).nth(number as usize))
 }
 
-/// The oracle with the comparator's bits fixed as they are in a stratum.
+/// Fixes the comparator's bits of `oracle` to their values in `stratum`.
 fn fixed(
     oracle: PhaseOracle,
     stratum: Stratum,
@@ -227,7 +227,7 @@ fn fixed(
     oracle.with_fixed(zeros, ones)
 }
 
-/// The oracle of which a circuit is written: the figures of `qrt inspect --pixel`.
+/// Figures of the oracle of the written circuit, as `qrt inspect --pixel` prints them.
 struct OracleFigures {
     name: OracleName,
     pixel: OraclePixel,
@@ -262,7 +262,7 @@ impl OracleFigures {
     }
 }
 
-/// A circuit that is written, and what is said of it.
+/// A circuit to write, with the facts for its summary.
 struct Exported<'a> {
     args: &'a ExportArgs,
     format: Format,
@@ -342,7 +342,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let counting = counting.map_err(|error| failed(&error))?;
     let parts = inspection.oracle.index_parts();
     let figures = OracleFigures::of(&inspection);
-    // The gates come from its program, of which the phase oracle has its own.
+    // The phase oracle has its own program, so the inspection can be freed.
     drop(inspection);
     let export = Export::new(&counting, args.part(), &parts);
     let export = export.map_err(|error| failed(&error))?;
@@ -384,7 +384,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     }
 }
 
-/// Refuses what nobody would wait for, unless it is asked for.
+/// Refuses to write more gates than `--max-gates`.
 fn allow(
     args: &ExportArgs,
     counting: &Counting<'_>,
@@ -413,7 +413,7 @@ fn allow(
     )))
 }
 
-/// The most phase bits with which a counting circuit has no more than `gates`.
+/// Returns the most phase bits for which a counting circuit has no more than `gates` gates.
 fn longest(counting: &Counting<'_>, window: Window, gates: u64) -> Option<u32> {
     let oracle = counting.iterate().oracle();
     let fits = |bits: &u32| {
@@ -425,7 +425,7 @@ fn longest(counting: &Counting<'_>, window: Window, gates: u64) -> Option<u32> {
         .find(fits)
 }
 
-/// Bytes, in the largest unit that they fill.
+/// Formats a number of bytes in the largest unit that it fills.
 fn size(bytes: u64) -> String {
     let units = [(1e12, "TB"), (1e9, "GB"), (1e6, "MB"), (1e3, "kB")];
     let bytes = bytes as f64;
@@ -453,7 +453,7 @@ impl Exported<'_> {
         }
     }
 
-    /// None if the reader has seen enough.
+    /// Writes to standard output; `None` if the reader closed the pipe.
     fn to_stdout(&self) -> Result<Option<Tally>, Failure> {
         match self.write(&mut BufWriter::new(io::stdout().lock())) {
             Ok(tally) => Ok(Some(tally)),

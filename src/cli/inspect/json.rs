@@ -1,4 +1,4 @@
-//! The figures for programs.
+//! Prints the figures of `qrt inspect` as JSON.
 
 use super::Shown;
 use qrt_circuit::lower::Cost;
@@ -7,7 +7,7 @@ use qrt_core::inspect::Part;
 use qrt_core::oracle::{OracleCost, PARTS_OF_A_CALL};
 use serde_json::{Map, Value, json};
 
-/// All figures. Costs are those of one whole call of the oracle unless said otherwise.
+/// Returns all figures. Costs are those of one whole call of the oracle unless said otherwise.
 pub(super) fn json(shown: &Shown<'_>) -> Value {
     let Shown {
         scene,
@@ -104,7 +104,7 @@ pub(super) fn json(shown: &Shown<'_>) -> Value {
     })
 }
 
-/// The registers, in the order of their offsets' first use.
+/// Returns the registers, in the order of their offsets' first use.
 fn registers(shown: &Shown<'_>) -> Vec<Value> {
     let inspection = shown.inspection;
     let program = &inspection.whole;
@@ -129,7 +129,7 @@ fn registers(shown: &Shown<'_>) -> Vec<Value> {
         .collect()
 }
 
-/// One of a scene's oracles.
+/// Returns the cost of one of a scene's oracles.
 pub(in crate::cli) fn oracle_cost(cost: &OracleCost) -> Value {
     json!({
         "channel": cost.name.channel_name(),

@@ -1,4 +1,4 @@
-//! `qrt inspect --logical-counts`: what estimators of physical resources take of a picture.
+//! `qrt inspect --logical-counts`: the input of estimators of physical resources, for a picture.
 
 use crate::cli::failure::Failure;
 use qrt_circuit::quantum::LogicalCounts;
@@ -9,11 +9,11 @@ use qrt_runtime::physical::{Counts, PhysicalError, PictureCounts};
 use qrt_runtime::plan::Figures;
 use serde_json::{Map, Value, json};
 
-/// Under two keys, `unitary` and `measured`, the counts of a call of the oracle and of a pixel's run
-/// of the inspected channel, of a pixel and of the film; beside them, what they are counts of.
+/// Returns the logical counts of a call of the oracle, of a pixel's run of the inspected channel, of a
+/// pixel and of the film, under the two keys `unitary` and `measured`, with a description of the counts.
 ///
 /// # Errors
-/// As [`PictureCounts::of`].
+/// Same as [`PictureCounts::of`].
 pub(super) fn json(
     loaded: &Loaded,
     scene: &ValidScene,
@@ -81,7 +81,7 @@ pub(super) fn json(
     }))
 }
 
-/// Under the names of Q#'s `LogicalCounts`.
+/// Returns the counts under the names of Q#'s `LogicalCounts`.
 fn for_qsharp(counts: LogicalCounts) -> Value {
     json!({
         "numQubits": counts.qubits,

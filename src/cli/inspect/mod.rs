@@ -1,4 +1,4 @@
-//! `qrt inspect`: what a scene's oracle costs, and where.
+//! `qrt inspect`: shows the cost of a scene's oracle, and its parts.
 
 mod json;
 mod logical;
@@ -93,12 +93,12 @@ pub(super) use json::{cost, oracle_cost};
 
 pub(super) const CHANNEL_CHOICES: [(usize, &str); 3] = [(0, "Red"), (1, "Green"), (2, "Blue")];
 
-/// A channel by its name: `r`, `g` or `b`.
+/// Returns the name of a channel: `r`, `g` or `b`.
 pub(super) fn channel_name(channel: usize) -> &'static str {
     CHANNELS[channel]
 }
 
-/// What `qrt inspect` shows.
+/// The figures that `qrt inspect` shows.
 struct Shown<'a> {
     scene: &'a ValidScene,
     inspection: &'a Inspection,
@@ -187,7 +187,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     }
     terminal::print(&out)?;
     if is_front {
-        // The budget is that of one strategy, the scene's.
+        // A budget applies to one strategy, the scene's.
         return Ok(());
     }
     let class = pixel.map(|_| inspection.name.class);
@@ -195,15 +195,14 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     keep_budget(&loaded, &costs)
 }
 
-/// True if an oracle is of the `channel` and the `class` of pixels that are asked for; all are where
-/// none is.
+/// True if an oracle has the given `channel` and the given `class` of pixels; `None` matches all.
 fn is_asked(cost: &OracleCost, channel: Option<usize>, class: Option<PixelClass>) -> bool {
     channel.is_none_or(|one| one == cost.name.channel)
         && class.is_none_or(|class| class == cost.name.class)
 }
 
-/// Compiles what is shown: the costs of all oracles, the oracle that is asked for, and what each
-/// pass is worth in it.
+/// Compiles the costs of all oracles, the selected oracle, and the figures of each compiler pass of that
+/// oracle.
 fn inspect(
     scene: &ValidScene,
     channel: Option<usize>,
@@ -218,10 +217,10 @@ fn inspect(
     Ok((costs, inspection, passes))
 }
 
-/// That `scene`, under whatever parameters, has a circuit, and one within its budget.
+/// Checks that `scene` has a circuit within its budget, if it has a budget.
 ///
 /// # Errors
-/// The problem that stands in the way, at its place in the scene.
+/// The problem, at its place in the scene.
 pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), Failure> {
     if scene.scene().budget.is_none() {
         return Ok(());
@@ -231,10 +230,10 @@ pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), F
     keep_budget(loaded, &costs)
 }
 
-/// That one call of each of these oracles is within the scene's budget.
+/// Checks that one call of each of the oracles in `costs` is within the scene's budget.
 ///
 /// # Errors
-/// The figures that are beyond the budget.
+/// The figures that exceed the budget.
 pub(super) fn keep_budget(loaded: &Loaded, costs: &[OracleCost]) -> Result<(), Failure> {
     check_budget(&loaded.valid, costs).map_err(|problems| loaded.report(problems).into())
 }

@@ -1,4 +1,4 @@
-//! `qrt inspect --pareto`: qubits against gates.
+//! `qrt inspect --pareto`: the front of qubits against gates.
 
 use super::{InspectArgs, is_asked, write};
 use crate::cli::failure::Failure;
@@ -16,7 +16,7 @@ use qrt_runtime::workers::Workers;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The front as text or JSON; its drawing is written to `plot`.
+/// Returns the front as text or JSON; writes its drawing to `plot`.
 pub(super) fn run(
     args: &InspectArgs,
     pixel: Option<OraclePixel>,

@@ -1,4 +1,4 @@
-//! The figures for people, within 100 columns.
+//! Prints the figures of `qrt inspect` for people, within 100 columns.
 
 use super::Shown;
 use qrt_circuit::lower::Cost;
@@ -14,7 +14,7 @@ const NAME: usize = 28;
 /// The width in columns of an oracle's name.
 const NAMES: usize = 40;
 
-/// The figures; with `planes`, each plane of each search.
+/// Returns the figures as text; with `planes`, each plane of each search.
 pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
     let mut out = String::new();
     if let Some(plan) = shown.plan {
@@ -78,7 +78,7 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     }
 }
 
-/// Why this oracle is shown.
+/// Returns the reason that this oracle is shown.
 fn why_shown(shown: &Shown<'_>) -> String {
     let Shown {
         inspection, costs, ..
@@ -100,7 +100,7 @@ fn why_shown(shown: &Shown<'_>) -> String {
     format!(": of the scene's {n} oracles the one with the most Toffolis")
 }
 
-/// The table of all oracles of the scene.
+/// Writes the table of all oracles of the scene.
 fn oracles(out: &mut String, shown: &Shown<'_>) {
     let Shown {
         inspection, costs, ..
@@ -126,7 +126,7 @@ fn oracles(out: &mut String, shown: &Shown<'_>) {
     }
 }
 
-/// A scene's name on one line, cut where it is long.
+/// Returns a scene's name on one line, cut to 24 characters.
 fn name(name: &str) -> String {
     let plain = name.chars().map(|c| if c.is_control() { ' ' } else { c });
     let text: String = plain.clone().take(24).collect();
@@ -137,7 +137,7 @@ fn name(name: &str) -> String {
     }
 }
 
-/// A row of the table of costs.
+/// Writes a row of the table of costs.
 fn row(out: &mut String, branch: &str, name: &str, cost: Cost, all: u64, qubits: Option<u32>) {
     let percent = match all {
         0 => String::new(),
@@ -223,7 +223,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
     row(out, "", "O_f", total, all, Some(inspection.qubits));
 }
 
-/// The line to a row and the one past the rows below it.
+/// Returns the branch to a row, and the line past the rows below it.
 fn branches(last: bool) -> (&'static str, &'static str) {
     if last {
         ("\u{2514} ", "  ")
@@ -232,8 +232,8 @@ fn branches(last: bool) -> (&'static str, &'static str) {
     }
 }
 
-/// The blocks within a stage: those of one kind (`plane 0`, `plane 1`) added up, unless each is
-/// asked for.
+/// Writes the blocks within a stage: those of one kind (`plane 0`, `plane 1`) added up, or with `each`,
+/// one by one.
 fn within(
     out: &mut String,
     below: &str,
@@ -253,7 +253,7 @@ fn within(
         .iter()
         .take_while(|block| block.level > level);
     let inner: Vec<&BlockFigures> = inner.collect();
-    // Each with what is within it.
+    // Each chunk is a block with the blocks within it.
     let own = inner.chunk_by(|_, next| next.level > level + 1);
     let mut kinds: BTreeMap<&str, Vec<&[&BlockFigures]>> = BTreeMap::new();
     for blocks in own {

@@ -1,5 +1,5 @@
-//! As much of HTTP/1.1 as a page of this machine needs: one request a connection, small, and of no
-//! other origin.
+//! The part of HTTP/1.1 that a page on this machine needs: one small request per connection, and none
+//! of another origin.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{Ipv4Addr, Ipv6Addr, TcpListener, TcpStream};
@@ -13,24 +13,24 @@ pub(super) const JSON: &str = "application/json";
 pub(super) const PLAIN: &str = "text/plain; charset=utf-8";
 const BYTES: &str = "application/octet-stream";
 
-/// Bytes of a request before its body.
+/// Most bytes of a request before its body.
 const MOST_HEAD: usize = 16 << 10;
-/// Its headers.
+/// Most headers of a request.
 const MOST_HEADERS: usize = 64;
-/// Connections that are answered at the same time; others wait in the system's queue.
+/// Most connections that are answered at the same time; others wait in the system's queue.
 const MOST_CONNECTIONS: usize = 32;
-/// Who says nothing for so long has gone.
+/// Time without a byte after which a connection counts as gone.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A request.
+/// A request to answer.
 pub(super) struct Asked<'a> {
     pub(super) method: &'a str,
-    /// The target, without what follows a question mark.
+    /// The target, without its query string.
     pub(super) path: &'a str,
     pub(super) body: &'a [u8],
 }
 
-/// What is answered.
+/// The response to a request.
 pub(super) struct Answer {
     status: &'static str,
     kind: &'static str,
@@ -54,17 +54,17 @@ impl Answer {
         }
     }
 
-    /// There is one, and nothing in it.
+    /// Returns the response for a resource without content.
     pub(super) fn empty() -> Self {
         Self::refused("204 No Content")
     }
 
-    /// There is no such thing.
+    /// Returns the response for a resource that does not exist.
     pub(super) fn none() -> Self {
         Self::refused("404 Not Found")
     }
 
-    /// The request makes no sense.
+    /// Returns the response for a malformed request.
     pub(super) fn wrong() -> Self {
         Self::refused("400 Bad Request")
     }
@@ -78,8 +78,8 @@ impl Answer {
     }
 }
 
-/// Answers until the program ends, each connection on a thread with so much stack; bodies have at most
-/// `most` bytes.
+/// Answers requests until the program ends. Each connection runs on a thread with a stack of `stack` bytes;
+/// bodies have at most `most` bytes.
 pub(super) fn serve(
     listener: &TcpListener,
     port: u16,
@@ -89,7 +89,7 @@ pub(super) fn serve(
 ) {
     let open = AtomicUsize::new(0);
     std::thread::scope(|threads| {
-        // A browser that hangs up is no reason to stop.
+        // A failed connection does not stop the server.
         for stream in listener.incoming().flatten() {
             while open.load(Ordering::Acquire) >= MOST_CONNECTIONS {
                 std::thread::sleep(Duration::from_millis(5));
@@ -118,7 +118,7 @@ fn converse(
     stream.set_write_timeout(Some(PATIENCE))?;
     let said = heard(&mut stream, port, most, answer)?;
     let Answer { status, kind, body } = said;
-    // Nothing from elsewhere, and nobody else shows the page in theirs.
+    // The page loads nothing from elsewhere, and no other page may frame it.
     write!(
         stream,
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n\
@@ -192,12 +192,12 @@ fn heard(
     }
 }
 
-/// The port of `http://` URLs that name none: browsers leave it out of `Host` and `Origin`.
+/// Port of `http://` URLs that name none: browsers leave it out of `Host` and `Origin`.
 const DEFAULT_PORT: u16 = 80;
 
 /// True if a request names this server as its host, exactly once, and comes from no page but this
 /// server's. A page of another site may send requests here, and the name of another site may resolve
-/// to this machine (DNS rebinding), so that a name other than `localhost` is never trusted.
+/// to this machine (DNS rebinding), so the server trusts no name other than `localhost`.
 fn is_own<'a>(
     mut hosts: impl Iterator<Item = &'a [u8]>,
     mut origins: impl Iterator<Item = &'a [u8]>,
@@ -255,7 +255,7 @@ mod tests {
             assert!(answered(host, Some(&origin), 80), "{host}");
             assert!(answered(&format!("{host}:80"), Some(&origin), 80), "{host}");
             assert!(answered(&format!("{host}:"), Some(&origin), 80), "{host}");
-            // Without a port it is port 80, and no other.
+            // A name without a port means port 80, and no other.
             assert!(!answered(host, None, 8000), "{host}");
             assert!(
                 !answered(&format!("{host}:8000"), Some(&origin), 8000),

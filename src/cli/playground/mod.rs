@@ -1,4 +1,4 @@
-//! `qrt playground`: a scene in an editor, in a browser.
+//! `qrt playground`: edits a scene in a browser.
 
 mod http;
 
@@ -40,14 +40,14 @@ pub(crate) struct PlaygroundArgs {
     port: u16,
 }
 
-/// Playgrounds that are kept for pages that are open; the one that was not asked for longest goes.
+/// Most playgrounds kept for open pages; the least recently used one is dropped.
 const MOST_SESSIONS: usize = 64;
-/// What compiling a circuit may take.
+/// Bytes of stack of a thread, for the compiler of circuits.
 const STACK: usize = 64 << 20;
-/// The longest name of a session.
+/// The longest name of a session, in bytes.
 const LONGEST_SESSION: usize = 64;
 
-/// What the page is made of.
+/// The page and its assets.
 const PAGE: &str = include_str!("page.html");
 const ASSETS: &[(&str, &str, &str)] = &[
     ("page.js", http::SCRIPT, include_str!("page.js")),
@@ -94,10 +94,10 @@ const ASSETS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// A playground that a worker of a page asks, by the name that the page gave it.
+/// A playground with the name that the worker of a page gave it.
 type Session<'a> = (String, Arc<Mutex<Playground<'a>>>);
 
-/// What is served.
+/// State of the server.
 struct Served<'a> {
     /// The scene to begin with.
     scene: Option<String>,
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &PlaygroundArgs) -> Result<(), Failure> {
     let scene = args.scene.as_deref().map(read).transpose()?;
     let folder = args.scene.as_deref().and_then(Path::parent);
     let served = Served {
-        // Of a scene's own folder are its files.
+        // A scene of the user's own has the files of its folder, not the examples.
         examples: if scene.is_some() {
             &[]
         } else {
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &PlaygroundArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The scene's text, wrong or not: it is there to be changed.
+/// Reads the scene's text. The scene may be invalid, because the user is about to change it.
 fn read(path: &Path) -> Result<String, Failure> {
     let cannot =
         |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", path.display()));
@@ -170,7 +170,7 @@ impl<'a> Served<'a> {
         }
     }
 
-    /// A call: the lines of the session, the call's name and its numbers, and the text after them.
+    /// Answers a call: the session, the call's name, its numbers, each on a line, and the text after them.
     fn call(&self, body: &[u8]) -> Option<Answer> {
         let body = std::str::from_utf8(body).ok()?;
         let mut lines = body.splitn(4, '\n');
@@ -194,7 +194,7 @@ impl<'a> Served<'a> {
         Some(Answer::bytes(bytes))
     }
 
-    /// The playground of that name, the latest from now on.
+    /// Returns the playground `name`, and makes it the most recently used.
     fn session(&self, name: &str) -> Arc<Mutex<Playground<'a>>> {
         let mut sessions = lock(&self.sessions);
         let known = sessions.iter().position(|(own, _)| own == name);

@@ -1,4 +1,4 @@
-//! What a check found, as JSON.
+//! Prints the result of a check as JSON.
 
 use super::{CIRCUIT, Found, VerifyArgs};
 use crate::cli::inspect::oracle_cost;
@@ -8,7 +8,7 @@ use qrt_runtime::machines::Defect;
 use qrt_runtime::render::Model;
 use serde_json::{Value, json};
 
-/// The answer.
+/// Returns the result of a check as JSON.
 pub(super) fn answer(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> Value {
     let report = &found.report;
     let mismatches = report.mismatches.iter().map(|mismatch| {
@@ -55,7 +55,7 @@ pub(super) fn answer(args: &VerifyArgs, scene: &ValidScene, found: &Found) -> Va
     })
 }
 
-/// A defect of the circuit, or a path whose colour is beyond its bound in `model`.
+/// Returns a defect of the circuit, or a path whose colour exceeds its bound in `model`.
 pub(super) fn defect(defect: &Defect, model: Option<Model>) -> Value {
     let mut value = json!({ "message": defect.to_string() });
     match defect {

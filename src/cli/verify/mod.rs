@@ -1,4 +1,4 @@
-//! `qrt verify`: the three models of a scene against each other.
+//! `qrt verify`: checks the three models of a scene against each other.
 
 mod json;
 mod parts;
@@ -24,7 +24,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// The circuit that is run, in words.
+/// The circuit that the check runs, in words.
 const CIRCUIT: &str = "all three channels in one: compute, compare and flip for each, uncompute";
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -83,10 +83,10 @@ pub(crate) struct VerifyArgs {
     scene: SceneArgs,
 }
 
-/// Answers on standard output.
+/// Prints the result of the check on standard output.
 ///
 /// # Errors
-/// A wrong scene, an interruption, and a check that failed.
+/// An invalid scene, an interruption, and a failed check.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let cancel = interrupt::cancel_on_interrupt()?;
     let loaded = args.scene.load()?;
@@ -143,12 +143,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     }
 }
 
-/// What a check found, be it its own report or that of all portions.
+/// The result of a check: its own report, or that of all portions.
 struct Found {
     report: Report,
-    /// The circuit's defect, as the answer in JSON has it.
+    /// Defect of the circuit, in the form of the JSON answer.
     defect: Option<Value>,
-    /// Wall time of the check, in seconds; of portions, of all together.
+    /// Wall time of the check, in seconds; for portions, the sum.
     seconds: f64,
 }
 
@@ -166,7 +166,7 @@ impl Found {
         self.report.mismatched == 0 && self.defect.is_none()
     }
 
-    /// The path whose colour is beyond its bound, if that is the defect: model, pixel and index.
+    /// Returns the path whose colour exceeds its bound, if that is the defect: model, pixel and index.
     fn beyond_bound(&self) -> Option<(Model, [u32; 2], u64)> {
         let defect = self.defect.as_ref()?;
         let name = defect["model"].as_str()?;
@@ -175,24 +175,24 @@ impl Found {
         Some((model, pixel, defect["id"].as_u64()?))
     }
 
-    /// The defect in words.
+    /// Returns the defect in words.
     fn defect(&self) -> Option<&str> {
         self.defect.as_ref()?["message"].as_str()
     }
 }
 
-/// Advice on a check that failed, with what the rays of a path meet whose colour is beyond its bound.
+/// Returns advice on a failed check, with the hits of the path whose colour exceeds its bound.
 fn advice(found: &Found, scene: &ValidScene, seed: u64) -> String {
     let Some((model, pixel, id)) = found.beyond_bound() else {
         return out_of_bounds_advice(None);
     };
-    // Gates beyond a bound which the same numbers keep are a defect, however coarse these are.
+    // Gates that exceed a bound which the integers keep are a defect, however coarse the numbers are.
     let fraction = (model == Model::Fixed).then_some(found.report.fraction);
     let path = path::in_words(scene, (model, seed, pixel, id));
     out_of_bounds_advice(fraction) + &path
 }
 
-/// The defect or the first mismatch in words, if the check failed.
+/// Returns the defect or the first mismatch in words, if the check failed.
 fn fault(found: &Found) -> Option<String> {
     if let Some(defect) = found.defect() {
         return Some(defect.to_owned());

@@ -1,4 +1,4 @@
-//! The answers of all portions of a check become the answer of the whole.
+//! Puts the answers of all portions of a check together.
 
 use super::super::failure::Failure;
 use super::Found;
@@ -11,13 +11,13 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// As many missing portions are named.
+/// Most missing portions that an error names.
 const NAMED: usize = 16;
 
-/// What the portions in `files` found together, of this scene, these pixels and this seed.
+/// Returns the joint result of the portions in `files`, of this scene, these pixels and this seed.
 ///
 /// # Errors
-/// A file that can't be read, is no such answer or is of another check; a portion that is missing or
+/// A file that can't be read, is not an answer or belongs to another check; a portion that is missing or
 /// there twice.
 pub(super) fn put_together(
     files: &[PathBuf],
@@ -69,7 +69,7 @@ pub(super) fn put_together(
     })
 }
 
-/// The portion that a file is of, and what it found.
+/// Returns the portion of a file, and its result.
 fn part(
     file: &Path,
     bytes: &[u8],
@@ -104,7 +104,7 @@ fn part(
             ..*options
         },
     )?;
-    // A check goes through them by class.
+    // The check visits the pixels by class, so both lists are sorted before they are compared.
     let mut there = found.report.pixels.clone();
     asked.sort_unstable();
     there.sort_unstable();
@@ -114,7 +114,7 @@ fn part(
     Ok((portion, found))
 }
 
-/// What an answer tells; none if it lacks something.
+/// Parses an answer; `None` if it lacks something.
 fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
     let pixels = answer["pixels"].as_array()?.iter().map(words);
     let mismatches = answer["mismatches"].as_array()?.iter().map(mismatch);
@@ -156,7 +156,7 @@ fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
     })
 }
 
-/// One of the scene's oracles and its cost, as the answer has them.
+/// Parses one of the scene's oracles and its cost.
 fn oracle_cost(value: &Value, scene: &ValidScene) -> Option<OracleCost> {
     let mut names = oracle_names(scene).into_iter();
     let name = names.find(|name| {

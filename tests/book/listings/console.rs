@@ -1,22 +1,22 @@
-//! Console blocks: commands, and what they say.
+//! Console blocks: commands, and their output.
 
 use super::diff::diff;
 
 /// A line that stands for any number of lines.
 const ELISION: &str = "...";
 
-/// A command and what the page shows of its output.
+/// A command and the output that the page shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Command {
     /// The line of the command within the block, from 0.
     pub(crate) line: usize,
-    /// What stands behind `$ `, continuation lines and all.
+    /// Text after `$ `, with continuation lines.
     pub(crate) text: String,
     /// The lines below.
     pub(crate) shown: Vec<String>,
 }
 
-/// The commands of a block.
+/// Parses the commands of a block.
 ///
 /// # Errors
 /// A block that does not begin with a command.
@@ -50,15 +50,15 @@ pub(crate) fn commands(body: &str) -> Result<Vec<Command>, String> {
 }
 
 impl Command {
-    /// Whether lines are left out.
+    /// True if lines of the output are left out.
     pub(crate) fn elides(&self) -> bool {
         self.shown.iter().any(|line| line == ELISION)
     }
 
-    /// Compares what is shown with what the command said.
+    /// Compares the shown output with the output `said` of the command.
     ///
     /// # Errors
-    /// Where they differ.
+    /// The lines that differ.
     pub(crate) fn check(&self, said: &str) -> Result<(), String> {
         let said: Vec<&str> = said.lines().map(str::trim_end).collect();
         let shown: Vec<&str> = self.shown.iter().map(String::as_str).collect();
@@ -85,7 +85,7 @@ impl Command {
         }
     }
 
-    /// The command as the page writes it, with `said` below it.
+    /// Returns the command as the page writes it, with `said` below it.
     pub(crate) fn rewritten(&self, said: &str) -> String {
         let mut out = format!("$ {}\n", self.text);
         for line in said.lines() {
@@ -95,7 +95,7 @@ impl Command {
         out
     }
 
-    /// The command as the page writes it, with what the page shows below it.
+    /// Returns the command as the page writes it, with the output that the page shows below it.
     pub(crate) fn as_shown(&self) -> String {
         self.rewritten(&self.shown.join("\n"))
     }

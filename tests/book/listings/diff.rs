@@ -1,12 +1,12 @@
-//! Two texts line by line.
+//! Compares two texts line by line.
 
 use std::fmt::Write as _;
 
-/// The lines of both, those of `expected` alone after `-`, those of `found` alone after `+`; of
-/// what they share, two lines about each difference.
+/// Returns the lines of both texts: lines of `expected` alone after `-`, of `found` alone after `+`;
+/// of common lines, two before and after each difference.
 pub(crate) fn diff(expected: &[&str], found: &[&str]) -> String {
     let (m, n) = (expected.len(), found.len());
-    // Lengths of the longest common subsequences of what follows.
+    // Lengths of the longest common subsequences of the remaining lines.
     let mut common = vec![vec![0_usize; n + 1]; m + 1];
     for i in (0..m).rev() {
         for j in (0..n).rev() {

@@ -1,4 +1,4 @@
-//! A page, from its first block to its last, in a folder of its own.
+//! Runs a page, from its first block to its last, in a folder of its own.
 
 use super::console::{Command, commands};
 use super::scenes::{self, Verdict};
@@ -8,15 +8,15 @@ use std::fs;
 use std::path::Path;
 use std::process::{self, Stdio};
 
-/// What came of a page.
+/// The result of a page.
 pub(crate) struct Outcome {
-    /// The page as it should be.
+    /// The corrected text of the page.
     pub(crate) text: String,
-    /// What is wrong with it, each with its place.
+    /// Faults of the page, each with its place.
     pub(crate) failures: Vec<String>,
-    /// Commands that were run.
+    /// Number of commands that were run.
     pub(crate) commands: usize,
-    /// Scenes that were judged.
+    /// Number of scenes that were checked.
     pub(crate) scenes: usize,
 }
 
@@ -54,7 +54,7 @@ pub(crate) fn page(page: &Page) -> Outcome {
     outcome
 }
 
-/// Runs a block's commands; returns its text as it should be.
+/// Runs a block's commands; returns the block's corrected text.
 fn console(page: &Page, fence: &Fence, folder: &Folder, outcome: &mut Outcome) -> String {
     let commands = match commands(&fence.body) {
         Ok(commands) => commands,
@@ -89,7 +89,7 @@ fn console(page: &Page, fence: &Fence, folder: &Folder, outcome: &mut Outcome) -
     lines.collect()
 }
 
-/// What a command says on standard output and standard error, as they come.
+/// Returns the output of a command on standard output and standard error, in the order of writing.
 fn say(command: &Command, folder: &Folder) -> String {
     let bin = Path::new(env!("CARGO_BIN_EXE_qrt")).parent().unwrap();
     let path = std::env::var("PATH").unwrap_or_default();
@@ -97,7 +97,7 @@ fn say(command: &Command, folder: &Folder) -> String {
         .arg("-c")
         .arg(format!("exec 2>&1\n{}", command.text))
         .current_dir(folder.path(""))
-        // Nothing of the caller's reaches the page: no colours, no width of a terminal.
+        // The caller's environment must not affect the page: no colours, no width of a terminal.
         .env_clear()
         .env("PATH", format!("{}:{path}", bin.display()))
         .env("LC_ALL", "C.UTF-8")
@@ -126,7 +126,7 @@ fn scene(fence: &Fence, next: Option<&Fence>, folder: &Folder) -> Result<(), Str
     if let Some(name) = name {
         fs::write(folder.path(name), &scene).unwrap();
     }
-    // Meshes are found as from a scene in `scenes-yaml`.
+    // Paths of meshes are relative to `scenes-yaml`.
     let meshes = folder.path("scenes-yaml");
     match (
         scenes::judge(&scene, name.unwrap_or("scene.yaml"), &meshes),
@@ -211,7 +211,7 @@ error[QRT0120]: unknown key `nothing` in the scene
         assert_eq!(failures(&right.replace("yaml", "yaml,wrong")).len(), 1);
         let wrong = right.replace("width", "widht");
         assert!(failures(&wrong)[0].contains("QRT0120"));
-        // A wrong one needs its report.
+        // A block marked `wrong` must be followed by its report.
         let wrong = wrong.replace("yaml", "yaml,wrong");
         assert!(failures(&wrong)[0].contains("followed by its report"));
         let report = "```text\nerror[QRT0121]: something else\n```\n";

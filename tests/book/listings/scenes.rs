@@ -4,7 +4,7 @@ use super::diff::diff;
 use qrt::core::front;
 use std::path::Path;
 
-/// Blocks of a scene that stand in where a page leaves them out.
+/// Blocks of a scene that replace those that a page leaves out.
 const BASE: [(&str, &str); 5] = [
     ("name", "name: base\n"),
     (
@@ -30,7 +30,7 @@ geometry:
     ),
 ];
 
-/// The file that a block's first line names, and whether the block is only to replace parts of it.
+/// Returns the file that a block's first line names, and true if the block replaces only parts of it.
 pub(crate) fn file(body: &str) -> Option<(&str, bool)> {
     let line = body.lines().next()?.strip_prefix("# ")?;
     let (name, partial) = match line.strip_prefix("in ") {
@@ -43,7 +43,7 @@ pub(crate) fn file(body: &str) -> Option<(&str, bool)> {
     (plain && name.strip_suffix(".yaml").is_some()).then_some((name, partial))
 }
 
-/// The key of a block at the start of a line.
+/// Returns the key of a block at the start of a line.
 fn key(line: &str) -> Option<&str> {
     let (key, _) = line.split_once(':')?;
     let plain = key
@@ -52,7 +52,7 @@ fn key(line: &str) -> Option<&str> {
     (plain && !key.is_empty()).then_some(key)
 }
 
-/// What stands before the first block, and the blocks, each with its key.
+/// Returns the text before the first block, and the blocks, each with its key.
 fn blocks(text: &str) -> (String, Vec<(String, String)>) {
     let mut head = String::new();
     let mut blocks: Vec<(String, String)> = Vec::new();
@@ -67,7 +67,7 @@ fn blocks(text: &str) -> (String, Vec<(String, String)>) {
     (head, blocks)
 }
 
-/// A scene of these blocks, and the base's where some are missing.
+/// Completes a scene with the base's blocks where some are missing.
 pub(crate) fn completed(text: &str) -> String {
     let (_, own) = blocks(text);
     let has = |key: &str| own.iter().any(|(other, _)| other == key);
@@ -76,14 +76,14 @@ pub(crate) fn completed(text: &str) -> String {
         if has(key) {
             continue;
         }
-        // The base's primitives are of the base's materials.
+        // The base's primitives use the base's materials.
         let bare = key == "geometry" && has("materials");
         scene.push_str(if bare { "geometry: []\n" } else { block });
     }
     scene
 }
 
-/// `old` with the blocks of `new` in place of its own.
+/// Returns `old` with the blocks of `new` in place of its own.
 pub(crate) fn replaced(old: &str, new: &str) -> String {
     let (mut out, mut kept) = blocks(old);
     for (key, block) in blocks(new).1 {
@@ -96,15 +96,15 @@ pub(crate) fn replaced(old: &str, new: &str) -> String {
     out
 }
 
-/// What qrt says of a scene.
+/// The verdict of qrt on a scene.
 pub(crate) enum Verdict {
-    /// Nothing.
+    /// The scene is valid.
     Accepted,
-    /// All of this.
+    /// The scene is refused, with this report.
     Refused(String),
 }
 
-/// What qrt says of the scene of `text`, called `name`, with meshes in `folder`.
+/// Parses the scene in `text` with the name `name`, with meshes in `folder`.
 pub(crate) fn judge(text: &str, name: &str, folder: &Path) -> Verdict {
     match front::parse(text, name, &[], folder) {
         Ok(_) => Verdict::Accepted,
@@ -112,11 +112,11 @@ pub(crate) fn judge(text: &str, name: &str, folder: &Path) -> Verdict {
     }
 }
 
-/// Compares a report with what a page shows of it: the name of the file is the page's, and the last
+/// Compares a report with the one that a page shows: the name of the file is the page's, and the last
 /// line, which counts the errors, may be left out.
 ///
 /// # Errors
-/// Where they differ.
+/// The lines that differ.
 pub(crate) fn is_told(report: &str, shown: &str) -> Result<(), String> {
     let name = |text: &str| {
         let place = text.split_once("--> ")?.1.split(':').next()?;

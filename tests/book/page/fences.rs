@@ -5,32 +5,32 @@ use std::ops::Range;
 /// A fenced block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fence {
-    /// What stands behind the opening backticks: `rust,ignore`, `equation 17`.
+    /// Text after the opening backticks: `rust,ignore`, `equation 17`.
     pub(crate) info: String,
-    /// The line of the opening backticks, from 1.
+    /// Line of the opening backticks, from 1.
     pub(crate) line: usize,
     /// The text between the backticks, without the fence's own indentation.
     pub(crate) body: String,
-    /// The bytes of the text between the backticks in the page.
+    /// Byte range, within the page, of the text between the backticks.
     pub(crate) range: Range<usize>,
-    /// Blanks before the opening backticks.
+    /// Number of blanks before the opening backticks.
     pub(crate) indent: usize,
-    /// Whether the page has closing backticks.
+    /// True if the page has closing backticks.
     pub(crate) closed: bool,
 }
 
 impl Fence {
-    /// The block's language: what its `info` begins with.
+    /// Returns the block's language, the beginning of its `info`.
     pub(crate) fn language(&self) -> &str {
         self.info.split([' ', ',']).next().unwrap_or_default()
     }
 }
 
-/// The number of backticks that open or close a fence on this line.
+/// Returns the indentation and the number of backticks of a fence that opens or closes on this line.
 pub(super) fn ticks(line: &str) -> Option<(usize, usize)> {
     let bare = line.trim_start_matches([' ', '>']);
     let count = bare.bytes().take_while(|&byte| byte == b'`').count();
-    // A line such as ```` ```code``` ```` opens nothing.
+    // A line such as ```` ```code``` ```` opens no fence.
     let opens = count >= 3 && !bare[count..].contains('`');
     opens.then(|| (line.len() - bare.len(), count))
 }

@@ -3,13 +3,13 @@
 /// A link or a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Link {
-    /// The line of its target, from 1.
+    /// Line of its target, from 1.
     pub(crate) line: usize,
-    /// Where it leads.
+    /// Target of the link.
     pub(crate) target: String,
     /// The text, or the description of a picture.
     pub(crate) text: String,
-    /// Whether it is a picture.
+    /// True if it is a picture.
     pub(crate) is_picture: bool,
 }
 
@@ -17,7 +17,7 @@ fn line_of(text: &str, at: usize) -> usize {
     1 + text[..at].matches('\n').count()
 }
 
-/// Links as in Markdown, and `src` and `href` as in HTML, in `prose`.
+/// Returns links as in Markdown, and `src` and `href` as in HTML, in `prose`.
 pub(super) fn read(prose: &str) -> Vec<Link> {
     let mut links = Vec::new();
     for (at, _) in prose.match_indices("](") {
@@ -55,7 +55,7 @@ pub(super) fn read(prose: &str) -> Vec<Link> {
     links
 }
 
-/// Behind the bracket that opens what `before` ends with.
+/// Returns the offset after the bracket that opens the text at the end of `before`.
 fn opening(before: &str) -> usize {
     let mut depth = 0;
     for (at, c) in before.char_indices().rev() {

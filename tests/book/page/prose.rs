@@ -1,8 +1,8 @@
-//! What a page says in words.
+//! The words of a page, without code and formulas.
 
 use super::fences;
 
-/// `text` with fences, code spans, formulas and comments replaced by blanks.
+/// Returns `text` with fences, code spans, formulas and comments replaced by blanks.
 pub(super) fn blanked(text: &str) -> String {
     let mut out = text.as_bytes().to_vec();
     for fence in fences::read(text) {
@@ -12,8 +12,8 @@ pub(super) fn blanked(text: &str) -> String {
         let closing = closing.find('\n').unwrap_or(closing.len());
         blank(&mut out, opening, fence.range.end + closing);
     }
-    // Bytes that are left are those of the text, so that this is UTF-8: blanks go character by
-    // character, and what is found below begins and ends with ASCII.
+    // The result is UTF-8: blanks replace whole characters, because the marks searched for below begin
+    // and end with ASCII.
     let prose = String::from_utf8(out.clone()).expect("whole characters are blanked");
     let mut at = 0;
     while at < prose.len() {
@@ -58,7 +58,7 @@ fn blank(text: &mut [u8], from: usize, to: usize) {
     }
 }
 
-/// Where `mark` stands in the paragraph at the start of `text`, not beside another `except`.
+/// Returns the offset of `mark` in the paragraph at the start of `text`, not beside another `except`.
 fn closing(text: &str, mark: &str, except: char) -> Option<usize> {
     let paragraph = text.find("\n\n").unwrap_or(text.len());
     let text = &text[..paragraph];

@@ -24,10 +24,10 @@ fn every_erratum_has_its_place_and_a_number_that_shows_it() {
     report(&failures);
 }
 
-/// Whether a section has a number where one says how wrong the paper is: in what a listing asserts,
-/// in a table, in a displayed formula, or in the paragraph that is called so.
+/// True if a section has a number that shows how wrong the paper is: in the assertion of a listing,
+/// in a table, in a displayed formula, or in the paragraph of that name.
 ///
-/// Numbers of equations, pages and codes, which links have, show nothing.
+/// Numbers of equations, pages and codes, which links have, do not count.
 fn shows_a_number(section: &str) -> bool {
     let page = Page::new("errata.md", section);
     let asserted = page.fences().iter().any(|fence| {
@@ -52,7 +52,7 @@ fn shows_a_number(section: &str) -> bool {
     asserted || displayed || tabled || said
 }
 
-/// Whether a text has a number that is part of no name, as in `f64`, and no exponent or index.
+/// True if a text has a number that is not part of a name, as in `f64`, an exponent or an index.
 fn has_number(text: &str) -> bool {
     let mut before = ' ';
     text.chars().any(|c| {

@@ -1,13 +1,13 @@
-//! What kinds of blocks pages may have.
+//! Kinds of blocks that pages may have.
 
 use crate::book::page::{Fence, Page};
 use std::fs;
 use std::path::Path;
 
-/// Languages of blocks that nothing is promised of, other than that they are shown.
+/// Languages of blocks that are only shown, and not checked.
 const PLAIN: [&str; 6] = ["text", "sh", "toml", "json", "csv", "latex"];
 
-/// What is wrong with the blocks of a page.
+/// Returns the faults of a page's blocks.
 pub(crate) fn failures(page: &Page) -> Vec<String> {
     let fences = page.fences();
     let mut failures = Vec::new();
@@ -85,7 +85,7 @@ fn included(body: &str) -> Vec<Include> {
             Some((path, part)) => (path, Some(part.to_owned())),
             None => (inner, None),
         };
-        // As seen from the pages' folder.
+        // The path is relative to the pages' folder.
         let path = path.strip_prefix("../../").unwrap_or(path).to_owned();
         Some(Include { path, part })
     };

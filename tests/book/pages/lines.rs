@@ -1,11 +1,11 @@
-//! How long the lines of pages are.
+//! Lengths of the lines of pages.
 
 use crate::book::page::Page;
 
 /// The longest line of prose.
 const WIDTH: usize = 100;
 
-/// What the target of a link, or the name of one, stands between; no line can break within it.
+/// Delimiters of the target of a link, or of its name; no line can break within them.
 const TARGETS: [(&str, char); 4] = [
     ("](", ')'),
     (" src=\"", '"'),
@@ -13,9 +13,9 @@ const TARGETS: [(&str, char); 4] = [
     (" id=\"", '"'),
 ];
 
-/// Lines of prose that are too long even without the targets of their links, and how long they are.
+/// Returns the lines of prose that are too long even without the targets of their links, with their lengths.
 ///
-/// Within blocks lines are as long as what they show, and the rows of tables cannot break.
+/// Lines within blocks may have any length, and the rows of tables cannot break.
 pub(crate) fn long(page: &Page) -> Vec<(usize, usize)> {
     let prose = page.prose();
     let lines = page.text.lines().zip(prose.lines()).zip(1..);
@@ -28,8 +28,8 @@ pub(crate) fn long(page: &Page) -> Vec<(usize, usize)> {
     long.collect()
 }
 
-/// How many characters of a line belong to targets of links. `prose` is the line with blanks in
-/// place of what is no prose, byte by byte.
+/// Returns the number of characters of a line in targets of links. `prose` is the line with blanks in
+/// place of everything that is not prose, byte by byte.
 fn targets(line: &str, prose: &str) -> usize {
     let of = |(open, close): (&str, char)| -> usize {
         let starts = prose.match_indices(open).map(|(at, _)| at + open.len());

@@ -1,4 +1,4 @@
-//! Pages are read as readers see them.
+//! Tests of the parser of pages.
 
 use crate::book::page::Page;
 
@@ -46,7 +46,7 @@ fn prose_is_what_is_neither_code_nor_formula() {
     assert_eq!(prose.lines().count(), text.lines().count());
     let letters: String = prose.chars().filter(|c| c.is_alphabetic()).collect();
     assert_eq!(letters, "acfhikmp");
-    // A dollar that opens nothing stays.
+    // A dollar sign that opens no formula stays.
     assert!(page("costs $5 and\n\nmore").prose().contains('$'));
 }
 

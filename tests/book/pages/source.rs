@@ -4,11 +4,11 @@ use crate::equation::Place;
 use crate::symbol::{Kind, defines, lines};
 use std::fs;
 
-/// Whether a place is a test: a function beneath `#[test]`, or one with an example that runs or
-/// within one.
+/// Checks that a place is a test: a function beneath `#[test]`, or an item with an example that runs, or
+/// a function within one.
 ///
 /// # Errors
-/// That it is not.
+/// The place is not a test.
 pub(crate) fn check_test(place: &Place) -> Result<(), String> {
     let Place { path, symbol } = place;
     let text = fs::read_to_string(path).map_err(|_| format!("there is no file `{path}`"))?;
@@ -19,8 +19,7 @@ pub(crate) fn check_test(place: &Place) -> Result<(), String> {
     }
 }
 
-/// Whether a symbol is that of a test. Where code defines it, an example's of the same name is
-/// none.
+/// True if a symbol is that of a test. If code defines it, a definition in an example does not count.
 fn is_test(text: &str, symbol: &str) -> bool {
     let lines = lines(text);
     let found = |wanted| {
@@ -34,7 +33,7 @@ fn is_test(text: &str, symbol: &str) -> bool {
     }
     in_code.into_iter().any(|at| {
         let above = lines[..at].iter().rev();
-        // Attributes and documentation, down from the item before.
+        // Attributes and documentation, from the symbol up to the item before.
         let above = above.map(|(kind, line)| (*kind, line.trim()));
         let mut above = above.take_while(|(kind, line)| {
             *kind != Kind::Code || line.starts_with("#[") || line.ends_with(")]")

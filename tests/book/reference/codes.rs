@@ -5,7 +5,7 @@ use super::reports;
 use qrt::core::syntax::codes::{Code, TABLE};
 use std::fmt::Write as _;
 
-/// What the codes that begin so are about.
+/// Groups of codes by their first characters, with titles and descriptions.
 const GROUPS: [(&str, &str, &str); 14] = [
     (
         "QRT010",
@@ -94,7 +94,7 @@ with the code at the end of the first line. A code's place on this page has its 
 
 ";
 
-/// The whole page.
+/// Returns the whole page.
 pub(crate) fn page() -> String {
     let mut page = HEAD.to_owned();
     let in_group =

@@ -1,6 +1,6 @@
 //! An example of each block of a scene.
 
-/// Blocks and what their authors write; `book_listings` checks that each is a part of a scene.
+/// Blocks and examples of them; `book_listings` checks that each is a part of a scene.
 pub(crate) const EXAMPLES: [(&str, &str); 12] = [
     ("name", "name: first-scene\n"),
     (
@@ -56,7 +56,7 @@ sampling:
     ("budget", "budget: { qubits: 2000, toffoli: 1000000 }\n"),
 ];
 
-/// Chapters that tell more of a block.
+/// Chapters that explain a block further.
 pub(crate) const CHAPTERS: [(&str, &str, &str); 9] = [
     ("camera", "Rays in superposition", "superposition.md"),
     ("materials", "Shading and materials", "shading.md"),

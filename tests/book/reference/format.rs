@@ -30,7 +30,7 @@ line: `--set camera.perspective.vfov=30`. Elements of lists have numbers from 0,
 
 ";
 
-/// The whole page.
+/// Returns the whole page.
 pub(crate) fn page() -> String {
     let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
     let blocks = entries(&schema, "properties");
@@ -77,7 +77,7 @@ fn is_required(schema: &Value, key: &str) -> bool {
     required.is_some_and(|all| all.iter().any(|name| name.as_str() == Some(key)))
 }
 
-/// What a block, a list of blocks or a map of them holds.
+/// Describes the contents of a block, of a list of blocks or of a map of them.
 fn describe(page: &mut String, path: &str, schema: &Value) {
     let named = schema
         .get("additionalProperties")
@@ -142,7 +142,7 @@ fn variants(page: &mut String, path: &str, schema: &Value) {
     }
 }
 
-/// One entry for each key: what it is called, what it takes, what it means.
+/// Writes an entry for each key: its name, the kind of its value, its meaning.
 fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
     for (name, part) in entries(schema, "properties") {
         let name = name.as_str().unwrap();
@@ -155,7 +155,7 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
         let inner = format!("{indent}  ");
         let head = format!("{indent}- <a id=\"{path}\"></a>**`{name}`**: ");
         *page += &wrapped(&format!("{}{missing}.", kind(part)), &head, &inner);
-        // A line of its own.
+        // The kind stands on a line of its own.
         page.pop();
         *page += "\\\n";
         *page += &wrapped(&sentence(&meaning(part)), &inner, &inner);
@@ -172,7 +172,7 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
     }
 }
 
-/// What the schema has at each path below `path`, whatever this page makes of it.
+/// Collects the schema's entry at each path below `path`, independently of this page.
 fn walk<'a>(path: &str, schema: &'a Value, found: &mut Vec<(String, &'a Value)>) {
     for (name, part) in schema
         .get("properties")
@@ -207,7 +207,7 @@ fn every_key_of_the_schema_is_on_the_page_and_nothing_else() {
     walk("", &schema, &mut found);
     let page = page();
     let mark = "<a id=\"";
-    // What stands between an anchor and the next.
+    // The text between an anchor and the next.
     let entries: Vec<(&str, &str)> = page
         .split(mark)
         .skip(1)
@@ -220,7 +220,7 @@ fn every_key_of_the_schema_is_on_the_page_and_nothing_else() {
     assert_eq!(paths, anchors);
     for (path, part) in found {
         let (_, entry) = entries.iter().find(|(other, _)| *other == path).unwrap();
-        // As one line, wherever it is wrapped.
+        // Compare the entry as one line, because the page wraps it.
         let entry = entry.split_whitespace().collect::<Vec<_>>().join(" ");
         let name = path.rsplit('.').next().unwrap();
         assert!(entry.contains(&format!("`{name}`")), "{path}: {entry}");

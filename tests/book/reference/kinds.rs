@@ -1,12 +1,12 @@
-//! What the JSON Schema says of a value, in words.
+//! Describes the kinds of values in the JSON Schema in words.
 
 use super::markdown::plain;
 use serde_yaml::Value;
 
-/// The size that numbers of scenes stay below.
+/// Bound on numbers of scenes.
 const LARGEST: f64 = 1e30;
 
-/// A number as people write it.
+/// Formats a number as people write it.
 fn number(value: &Value) -> String {
     let value = value.as_f64().expect("a bound is a number");
     let size = value.abs();
@@ -33,7 +33,7 @@ fn number(value: &Value) -> String {
     format!("{sign}{out}")
 }
 
-/// `from 0 to 1`, `above 0 and below 180`; nothing for what may be as large as numbers get.
+/// Formats a range: `from 0 to 1`, `above 0 and below 180`; empty if only the largest size bounds it.
 fn range(schema: &Value) -> String {
     let get = |key: &str| schema.get(key);
     let is_largest = |value: &Value| value.as_f64().is_some_and(|v| v.abs() >= LARGEST);
@@ -75,7 +75,7 @@ fn length(schema: &Value, key: &str) -> Option<u64> {
     schema.get(key).and_then(Value::as_u64)
 }
 
-/// What kind of value it is, and its range: `three numbers, from 0 to 1`.
+/// Describes the kind of a value, and its range: `three numbers, from 0 to 1`.
 ///
 /// # Panics
 /// If the schema has a form that this page has no words for.
@@ -137,7 +137,7 @@ fn list(schema: &Value) -> String {
     } else {
         kind(item)
     };
-    // `whole number, from 0 to 24`
+    // For example `whole number, from 0 to 24`.
     let end = one.find(',').unwrap_or(one.len());
     let several = format!("{}s{}", &one[..end], &one[end..]);
     match (least, most) {
@@ -155,7 +155,7 @@ fn count(n: u64) -> String {
         .map_or_else(|| n.to_string(), |word| (*word).to_owned())
 }
 
-/// The words that a value is one of, each with its meaning.
+/// Returns the words that a value may be, each with its meaning.
 pub(crate) fn words(schema: &Value) -> Vec<(String, String)> {
     let texts = |key: &str| -> Vec<String> {
         let list = schema.get(key).and_then(Value::as_sequence);
@@ -175,12 +175,12 @@ pub(crate) fn words(schema: &Value) -> Vec<(String, String)> {
     words.into_iter().zip(meanings).collect()
 }
 
-/// What the value is if it is not written.
+/// Returns the default of a value.
 pub(crate) fn default(schema: &Value) -> Option<String> {
     schema.get("default").map(flow)
 }
 
-/// YAML on one line.
+/// Formats YAML on one line.
 fn flow(value: &Value) -> String {
     match value {
         Value::Sequence(items) => {
@@ -200,7 +200,7 @@ fn flow(value: &Value) -> String {
     }
 }
 
-/// What a value means: its description, without the default, which stands elsewhere.
+/// Returns the meaning of a value: its description without the default, which another place shows.
 pub(crate) fn meaning(schema: &Value) -> String {
     let text = schema
         .get("description")
@@ -209,7 +209,7 @@ pub(crate) fn meaning(schema: &Value) -> String {
     let Some((before, default)) = text.split_once("; default ") else {
         return plain(text);
     };
-    // Up to the end of the sentence.
+    // The default ends at the end of the sentence.
     let end = default.find(". ").unwrap_or(default.len() - 1);
     plain(&format!("{before}{}", &default[end..]))
 }

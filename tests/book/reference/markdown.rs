@@ -1,9 +1,9 @@
-//! Text of pages.
+//! Text of generated pages.
 
 /// The longest line of a page.
 const WIDTH: usize = 100;
 
-/// `text` as lines that begin with `first`, then with `rest`.
+/// Wraps `text` into lines that begin with `first`, then with `rest`.
 pub(crate) fn wrapped(text: &str, first: &str, rest: &str) -> String {
     let mut out = first.to_owned();
     let mut length = first.chars().count();
@@ -28,7 +28,7 @@ pub(crate) fn wrapped(text: &str, first: &str, rest: &str) -> String {
     out
 }
 
-/// What stands between blanks, with code in one piece.
+/// Splits at blanks, but keeps a code span in one piece.
 fn words(text: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut start = None;
@@ -48,7 +48,7 @@ fn words(text: &str) -> Vec<&str> {
     words
 }
 
-/// Plain words as Markdown: nothing in them is taken for a mark.
+/// Escapes plain words for Markdown.
 pub(crate) fn plain(text: &str) -> String {
     let mut out = String::new();
     let mut code = false;
@@ -65,7 +65,7 @@ pub(crate) fn plain(text: &str) -> String {
     out
 }
 
-/// A sentence: with a capital letter, and a full stop.
+/// Makes a sentence: with a capital letter, and a full stop.
 pub(crate) fn sentence(text: &str) -> String {
     let mut letters = text.trim().chars();
     let first = letters.next().map(|c| c.to_ascii_uppercase());

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// For each code the shortest report that shows it.
+/// Returns, for each code, the shortest report that shows it.
 pub(crate) fn all() -> &'static BTreeMap<String, String> {
     static ALL: LazyLock<BTreeMap<String, String>> = LazyLock::new(collected);
     &ALL
@@ -22,7 +22,7 @@ pub(crate) fn all() -> &'static BTreeMap<String, String> {
 fn collected() -> BTreeMap<String, String> {
     let mut reports = BTreeMap::new();
     let mut keep = |code: String, text: String| {
-        // Those of scenes before the compiler's.
+        // Reports of scene files come before those of the compiler.
         let size = |text: &str| {
             (
                 text.starts_with("error: ") || text.starts_with("error[E"),
@@ -60,7 +60,7 @@ fn collected() -> BTreeMap<String, String> {
     reports
 }
 
-/// The reports of a text, each with its code.
+/// Splits a text into its reports, each with its code.
 fn split(text: &str) -> Vec<(String, String)> {
     let mut reports: Vec<String> = Vec::new();
     for line in text.lines() {
@@ -76,7 +76,7 @@ fn split(text: &str) -> Vec<(String, String)> {
         let title = report.lines().next()?;
         let at = title.find("[QRT")?;
         let code = title.get(at + 1..at + 8)?.to_owned();
-        // The last line of all counts the errors.
+        // The last line of the text counts the errors.
         let (report, last) = report.trim_end().rsplit_once('\n')?;
         let counts = last.contains(": ") && (last.ends_with(" error") || last.ends_with(" errors"));
         let end = if counts { "" } else { last };
@@ -85,7 +85,7 @@ fn split(text: &str) -> Vec<(String, String)> {
     coded.collect()
 }
 
-/// A wall in front of the camera, and more blocks.
+/// Returns a scene with a wall in front of the camera, and more blocks.
 fn wall(more: &str) -> Loaded {
     let text = format!(
         "\
@@ -99,8 +99,8 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
     parse(&text, "wall.yaml", &[], "".as_ref()).unwrap()
 }
 
-/// Reports that no faulty scene file alone brings about. QRT0344 has none: whatever the OBJ library
-/// refuses is refused by the checks before it, as far as anybody knows.
+/// Returns reports that no faulty scene file alone causes. QRT0344 has none: as far as known, the
+/// checks before the OBJ library refuse everything that the library would refuse.
 fn elsewhere() -> Vec<String> {
     let tell = |loaded: &Loaded, problems| loaded.report(problems).render(false);
     let mut texts = Vec::new();
@@ -173,7 +173,7 @@ sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }] }
     let problems = bsdf::compile(&grey).unwrap_err();
     texts.extend(problems.into_iter().map(whole));
 
-    // Sparse: it takes no room, and no time until it is read.
+    // The file is sparse: it takes no disk space, and no time until it is read.
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book_reference");
     fs::create_dir_all(&folder).unwrap();
     let file = fs::File::create(folder.join("large.obj")).unwrap();

@@ -1,20 +1,20 @@
-//! Gates on bits, as plainly as can be: 64 states a word, no machine's code.
+//! A simple simulator of gates on bits: 64 states a word, independent of the machines' code.
 
 use super::{inputs, number};
 use qrt::circuit::{Circuit, Gate, Operand, Qubit};
 use qrt::core::oracle::Oracle;
 
-/// All paths of all pixels of a film, 64 to a word.
+/// States of all paths of all pixels of a film, 64 to a word.
 pub(crate) struct States {
-    /// By qubit, and by word.
+    /// Words of each qubit.
     pub(crate) qubits: Vec<Vec<u64>>,
-    /// By parameter, by bit, and by word.
+    /// Words of each bit of each parameter.
     words: Vec<Vec<Vec<u64>>>,
-    /// States in all.
+    /// Number of states.
     pub(crate) count: usize,
 }
 
-/// Of these bits, 64 to a word.
+/// Packs bits into words, 64 to a word.
 fn packed(bits: impl Iterator<Item = bool>) -> Vec<u64> {
     let mut words = Vec::new();
     for (place, bit) in bits.enumerate() {
@@ -27,7 +27,7 @@ fn packed(bits: impl Iterator<Item = bool>) -> Vec<u64> {
 }
 
 impl States {
-    /// Before `circuit`, in every pixel and path: the path index, and zeros.
+    /// Prepares the state before `circuit`, in every pixel and path: the path index, and zeros.
     pub(crate) fn new(oracle: &Oracle, circuit: &Circuit, seed: u64, pixels: &[[u32; 2]]) -> Self {
         let paths = 1_usize << oracle.points.path_bits();
         let count = pixels.len() * paths;
@@ -64,7 +64,7 @@ impl States {
         }
     }
 
-    /// Runs a gate; says in which states it changes something.
+    /// Runs a gate; returns the states in which it changes a bit.
     pub(crate) fn gate(&mut self, gate: Gate) -> Vec<u64> {
         let width = self.qubits[0].len();
         let (target, flips): (Qubit, Vec<u64>) = match gate {
@@ -93,7 +93,7 @@ impl States {
         }
     }
 
-    /// The number that an operand is in every state, its register's qubits being in `outputs`.
+    /// Returns the value of an operand in every state, whose register's qubits are in `outputs`.
     pub(crate) fn numbers(&self, circuit: &Circuit, operand: Operand) -> Vec<i64> {
         let Operand::Word(word) = operand else {
             return vec![number(operand, &[]); self.count];
@@ -111,7 +111,7 @@ impl States {
     }
 }
 
-/// A gate's qubits, the target last.
+/// Returns a gate's qubits, the target last.
 pub(crate) fn qubits(gate: Gate) -> Vec<Qubit> {
     match gate {
         Gate::X(t) | Gate::Load { target: t, .. } | Gate::Z(t) => vec![t],

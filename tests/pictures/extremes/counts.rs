@@ -6,7 +6,7 @@ use qrt::runtime::counting::PhaseDistribution;
 use qrt::runtime::estimators::{Estimate, Problem, estimate};
 use qrt::runtime::random::Stream;
 
-/// One run of an estimator; its result must be valid whatever was asked.
+/// Runs an estimator once; its result must be valid for any problem.
 fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64) -> Estimate {
     let counting = Counting {
         phase_bits: bits,
@@ -30,8 +30,8 @@ fn truth(problem: Problem) -> f64 {
     problem.good as f64 / problem.total as f64
 }
 
-/// Many estimates; the coverage: the fraction whose interval contains the truth, and the largest
-/// error of the median run.
+/// Measures many estimates: the coverage, which is the fraction whose interval contains the truth, and the
+/// largest error of the median run.
 fn ends() -> Extreme {
     let (mut runs, mut covered, mut worst) = (0, 0, (0.0_f64, ""));
     for &name in Estimator::ALL {
@@ -71,7 +71,7 @@ fn ends() -> Extreme {
     )
 }
 
-/// How far the probabilities are from adding up to 1, for theta on the grid, halfway, and anywhere.
+/// Measures the error of the sum of probabilities, for theta on the grid, halfway, and anywhere.
 fn grids() -> Extreme {
     let mut off = 0.0_f64;
     for bits in 1..=14 {
@@ -123,7 +123,7 @@ fn registers() -> Extreme {
     )
 }
 
-/// From one repetition to a million.
+/// Counts with one repetition to a million.
 fn repetitions() -> Extreme {
     let problem = Problem {
         good: (1 << 60) / 7 * 2,
@@ -144,7 +144,7 @@ fn repetitions() -> Extreme {
     )
 }
 
-/// The smallest and the largest budgets.
+/// Counts with the smallest and the largest budgets.
 fn budgets() -> Extreme {
     let problem = Problem {
         good: (1 << 60) / 5,
@@ -155,7 +155,7 @@ fn budgets() -> Extreme {
         if name == Estimator::Exact {
             continue;
         }
-        // One query: nothing sensible, but a valid result.
+        // One query gives no sensible estimate, but a valid result.
         run(name, problem, 1, 1, 0);
         let found = run(name, problem, 30, 1, 0);
         assert!(found.queries < 1 << 30, "{name}");

@@ -1,8 +1,8 @@
 //! Extremes of scenes, under all three models.
 //!
-//! Most happens in a furnace: a closed room whose walls all glow and reflect alike, where a path of
-//! D rays brings `Le (1 - rho^D) / (1 - rho)` wherever the camera looks. A leak, a lost hit or a
-//! rounding error shows.
+//! Most tests use a furnace: a closed room whose walls all glow and reflect alike, where a path of
+//! D rays brings `Le (1 - rho^D) / (1 - rho)` in every direction of the camera. A leak, a lost hit or
+//! a rounding error changes this value.
 
 use super::Extreme;
 use crate::pictures::cube::{WALLS, corner};
@@ -18,7 +18,7 @@ const RADIANCE: [f64; 3] = [1.0, 0.5, 0.25];
 const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];
 const DEPTH: i32 = 2;
 
-/// Pixels of a scene under a model, counted exactly.
+/// Renders a scene under a model, counted exactly; returns its pixels.
 fn picture(text: &str, model: Model) -> Result<Vec<[f64; 3]>, Report> {
     let scene = parse(text, "scene.yaml", &[], "".as_ref())?.valid;
     let options = Options {
@@ -93,7 +93,7 @@ comparator: {{ bits: 10 }}
         )
     }
 
-    /// The largest relative error of a pixel's channel.
+    /// Returns the largest relative error of a pixel's channel.
     fn error(&self, model: Model) -> f64 {
         let mut worst = 0.0_f64;
         for pixel in picture(&self.text(), model).unwrap() {
@@ -108,7 +108,7 @@ comparator: {{ bits: 10 }}
     }
 }
 
-/// The errors of rooms by model, each within its bar; `gates` gives what `fixed` gives.
+/// Returns the errors of rooms by model, each within its bound; `gates` equals `fixed`.
 fn errors(rooms: &[Room], real: f64, fixed: f64) -> String {
     let worst = |model| {
         rooms
@@ -147,7 +147,7 @@ fn places() -> Extreme {
     )
 }
 
-/// Pixels that look exactly at vertices and along edges, in rooms of quads and of triangles.
+/// Tests pixels that look exactly at vertices and along edges, in rooms of quads and of triangles.
 fn edges() -> Extreme {
     let mut rooms = Vec::new();
     for triangles in [false, true] {
@@ -191,7 +191,7 @@ fn grazing() -> Extreme {
     )
 }
 
-/// Turned by 30 degrees about z and 20 about x.
+/// Rotates by 30 degrees about z and 20 about x.
 fn askew([x, y, z]: Point) -> Point {
     let [s, c] = [0.5, 0.75_f64.sqrt()];
     let [x, y] = [c * x - s * y, s * x + c * y];
@@ -206,12 +206,12 @@ fn inside() -> Extreme {
         vfov,
         ..ROOM
     };
-    // Narrow enough to look inwards only.
+    // The field of view is narrow enough to look inwards only.
     let rooms = [
         room([1.0, 0.0, 0.0], [-1.0, 0.25, 0.125], 60.0),
         room([1.0, 1.0, 1.0], [0.0, 0.0, 0.0], 20.0),
         room([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 90.0),
-        // The same wall and corner, askew.
+        // The same wall and corner, rotated.
         Room {
             place: askew,
             ..room([1.0, 0.0, 0.0], [-1.0, 0.25, 0.125], 60.0)
@@ -228,7 +228,7 @@ fn inside() -> Extreme {
     )
 }
 
-/// A floor that is lit by a lamp: colours that are no round numbers.
+/// Returns a floor lit by a lamp, with colours that are no round numbers.
 fn lit_floor(fraction: u32) -> String {
     format!(
         "name: lit
@@ -259,7 +259,7 @@ fn fractions() -> Extreme {
             (square + (r - f) * (r - f), sum + r)
         });
         let error = (square / 48.0).sqrt() / (sum / 48.0);
-        // What remains at the end is the comparators'.
+        // The error that remains at the end is the comparators'.
         assert!(error <= last.max(1e-5), "{fraction}: {error} after {last}");
         last = error;
         measured.push(format!("{fraction}: {error:.0e}"));
@@ -275,7 +275,7 @@ fn fractions() -> Extreme {
     )
 }
 
-/// A quarter of the view is covered by two quads in one plane.
+/// Covers a quarter of the view by two quads in one plane.
 fn overlaps() -> Extreme {
     let text = |first: &str, second: &str| {
         format!(
@@ -308,7 +308,7 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}] }}"
     )
 }
 
-/// A slit of light between two triangles that are almost lines.
+/// Tests a slit of light between two triangles that are almost lines.
 fn slivers() -> Extreme {
     let text = |height: f64| {
         format!(
@@ -350,7 +350,7 @@ precision: {{ fraction: 24 }}"
     )
 }
 
-/// A lamp of a ten-thousandth of the floor's size shows as any other, and lights as it must.
+/// A lamp of a ten-thousandth of the floor's size appears like any other, and lights as it must.
 fn tiny_lamp() -> Extreme {
     // Seen from the floor, straight up.
     let text = |up: bool| {
@@ -384,8 +384,8 @@ sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}] }
     let [pixel] = picture(&text(false), Model::Real).unwrap()[..] else {
         panic!("one pixel");
     };
-    // The form factor of the lamp from the middle of what the pixel sees, by the closed form of a
-    // rectangle above a point.
+    // The form factor of the lamp from the middle of the visible part of the floor, by the closed form of
+    // a rectangle above a point.
     let form_factor = pixel[0] / 8.0;
     let error = (form_factor / 0.069_553_7 - 1.0).abs();
     assert!(error < 0.1, "{form_factor}");

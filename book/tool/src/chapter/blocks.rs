@@ -6,15 +6,15 @@ use crate::equation::Equation;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag};
 use std::collections::BTreeMap;
 
-/// A block of code, as Markdown finds it in lists and all.
+/// A block of code as the Markdown parser finds it, also within lists.
 struct Code {
-    /// The line behind its last one, from 0.
+    /// Number of the line after its last one, from 0.
     after: usize,
-    /// What follows the fence; nothing for a block that is code by its indentation.
+    /// Text after the fence; `None` for a block that is code by its indentation.
     info: Option<String>,
 }
 
-/// The blocks of code of a text, by their first lines, from 0.
+/// Returns the blocks of code of a text, by their first lines, from 0.
 fn code(content: &str) -> BTreeMap<usize, Code> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(content.match_indices('\n').map(|(at, _)| at + 1))
@@ -34,7 +34,7 @@ fn code(content: &str) -> BTreeMap<usize, Code> {
     blocks
 }
 
-/// A line that opens or closes a fence: its character and its length, and what follows.
+/// Parses a line that opens or closes a fence: its character, its length, and the text after it.
 fn fence(line: &str) -> Option<(char, usize, &str)> {
     let text = line.trim_start();
     let mark = text.chars().next().filter(|c| matches!(c, '`' | '~'))?;
@@ -43,7 +43,7 @@ fn fence(line: &str) -> Option<(char, usize, &str)> {
     (length >= 3 && !(mark == '`' && info.contains('`'))).then(|| (mark, length, info.trim()))
 }
 
-/// The lines within a fenced block, and what follows its fence.
+/// Returns the text after the fence of a block, and the lines within.
 fn within<'a, 'b>(block: &'b [&'a str]) -> Result<(&'a str, &'b [&'a str]), &'static str> {
     let (first, rest) = block.split_first().ok_or("an equation without a line")?;
     let (mark, length, info) =
@@ -53,7 +53,7 @@ fn within<'a, 'b>(block: &'b [&'a str]) -> Result<(&'a str, &'b [&'a str]), &'st
         other == mark && long >= length && after.is_empty()
     };
     let closed = rest.split_last().filter(|(last, _)| {
-        // Further in, it is a line of the block.
+        // A fence that is indented further is a line of the block.
         indentation(last) < indentation(first) + 4 && fence(last).is_some_and(closes)
     });
     let (_, body) = closed.ok_or("this equation's block is never closed")?;
@@ -61,7 +61,7 @@ fn within<'a, 'b>(block: &'b [&'a str]) -> Result<(&'a str, &'b [&'a str]), &'st
 }
 
 impl Workshop {
-    /// Equations, and formulas that begin on a line of their own.
+    /// Replaces equations, and formulas that begin on a line of their own.
     pub(super) fn blocks(
         &mut self,
         chapter: &Chapter<'_>,
@@ -107,7 +107,7 @@ impl Workshop {
         traced
     }
 
-    /// The equation of a block, if nothing is wrong with it.
+    /// Returns the equation of a block, or records its faults.
     fn read(&mut self, chapter: &Chapter<'_>, block: &[&str], line: usize) -> Option<Equation> {
         let (info, body) = within(block)
             .map_err(|message| self.complain(chapter, line, message))
@@ -118,8 +118,8 @@ impl Workshop {
     }
 }
 
-/// A formula that begins with `$$` at the beginning of a line and ends with `$$` at the end of
-/// this or a later one, before any empty line; and the line after it.
+/// Returns the formula that begins with `$$` at the beginning of the line `first` and ends with `$$` at
+/// the end of this or a later line, before any empty line; and the number of the line after it.
 fn display(lines: &[&str], first: usize) -> Option<(String, usize)> {
     let rest = lines[first].trim().strip_prefix("$$")?;
     if let Some(tex) = rest.strip_suffix("$$").filter(|tex| !tex.is_empty()) {

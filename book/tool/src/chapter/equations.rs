@@ -1,4 +1,4 @@
-//! Equations as chapters and the index of all show them.
+//! Equations as chapters and the index of all equations show them.
 
 use super::inlines::inlines;
 use super::traced::Traced;
@@ -9,7 +9,7 @@ use pulldown_cmark::Parser;
 use qrt_drawing::escaped;
 use std::fmt::Write as _;
 
-/// An equation as the index lists it.
+/// An equation in the index.
 pub(crate) struct Indexed {
     /// The equation.
     pub(crate) equation: Equation,
@@ -24,7 +24,7 @@ pub(crate) struct Indexed {
 }
 
 impl Workshop {
-    /// An equation's HTML: it, its number, and where its code and its test are.
+    /// Returns the HTML of an equation: the formula, its number, and the places of its code and its test.
     pub(super) fn equation(
         &mut self,
         chapter: &Chapter<'_>,
@@ -53,7 +53,7 @@ impl Workshop {
         html
     }
 
-    /// What the paper prints in an equation's place, if it is something else.
+    /// Returns the formula that the paper prints in an equation's place, if it differs.
     fn printed(&mut self, chapter: &Chapter<'_>, equation: &Equation, line: usize) -> String {
         if equation.printed.is_empty() {
             return String::new();
@@ -81,14 +81,14 @@ impl Workshop {
                 "{comma}<a href=\"{}{link}\" title=\"{}\"><code>{}</code></a>",
                 chapter.to_root(),
                 escaped(&place.path),
-                // Where a narrow page may break it.
+                // A narrow page may break the line there.
                 escaped(&place.symbol).replace('_', "_<wbr>")
             );
         }
         html
     }
 
-    /// The index of all equations, for the line `{{#equations}}` of a chapter.
+    /// Returns the index of all equations, for the line `{{#equations}}` of a chapter.
     pub(crate) fn index(&mut self, chapter: &Chapter<'_>, equations: &[Indexed]) -> String {
         let mut html = String::from(
             "<div class=\"table-wrapper\"><table class=\"equations\"><thead><tr><th></th>\
@@ -129,7 +129,7 @@ impl Workshop {
         within_markdown(&html)
     }
 
-    /// A line of Markdown as HTML.
+    /// Renders a line of Markdown as HTML.
     fn line(&mut self, chapter: &Chapter<'_>, markdown: &str, line: usize) -> String {
         let mut traced = Traced::default();
         traced.push(markdown, line);

@@ -15,14 +15,14 @@ use super::{Chapter, Workshop};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// What a caption begins with.
+/// Beginning of a caption.
 const CAPTION: &str = ": ";
-/// What a line of labels begins with.
+/// Beginning of a line of labels.
 const LABELS: &str = "; ";
-/// A link that is to be numbered.
+/// A link to which the figure's number is added.
 const LINK: &str = "[Figure](";
 
-/// The numbers of figures, by `page.html#fig-NAME`.
+/// Numbers of figures, by `page.html#fig-NAME`.
 #[derive(Default)]
 pub(crate) struct Figures(BTreeMap<String, usize>);
 
@@ -34,12 +34,12 @@ struct Figure<'a> {
     interactive: bool,
     labels: Option<&'a str>,
     caption: Vec<&'a str>,
-    /// Behind its last line.
+    /// Number of the line after its last one.
     after: usize,
 }
 
 impl Workshop {
-    /// Adds the figure that begins on a line, if one does; answers the line behind it.
+    /// Adds the figure that begins on the line `first`, if one does; returns the line after it.
     pub(super) fn figure(
         &mut self,
         chapter: &Chapter<'_>,
@@ -104,7 +104,7 @@ impl Workshop {
         Some(figure.after)
     }
 
-    /// A chapter's text with the numbers of the figures that it refers to.
+    /// Returns a chapter's text with the numbers of the figures that it refers to.
     pub(crate) fn numbered(&mut self, chapter: &Chapter<'_>, content: &str) -> String {
         let mut parts = content.split(LINK);
         let mut out = parts.next().unwrap_or_default().to_owned();
@@ -128,7 +128,7 @@ impl Workshop {
     }
 }
 
-/// The figure that begins on a line.
+/// Parses the figure that begins on the line `first`.
 fn read<'a>(lines: &'a [&'a str], first: usize) -> Option<Figure<'a>> {
     let line = lines[first];
     let interactive = line.starts_with("<figure ");
@@ -163,7 +163,7 @@ fn read<'a>(lines: &'a [&'a str], first: usize) -> Option<Figure<'a>> {
             after += 1;
         }
     }
-    // The end of an interactive figure comes behind the caption.
+    // The end tag of an interactive figure comes after the caption.
     let shown = match shown.split_last() {
         Some((last, rest)) if interactive && last.trim() == "</figure>" => rest,
         _ => shown,
@@ -178,7 +178,7 @@ fn read<'a>(lines: &'a [&'a str], first: usize) -> Option<Figure<'a>> {
     })
 }
 
-/// What an interactive figure is called: `data-figure` names one that needs a server, `data-still`
+/// Returns the name of an interactive figure: `data-figure` names one that needs a server, `data-still`
 /// one that does not.
 fn name(tag: &str) -> Option<&str> {
     let named = ["data-figure=\"", "data-still=\""];

@@ -1,4 +1,4 @@
-//! What stands within lines: formulas, links to sources, and HTML.
+//! Elements within lines: formulas, links to sources, and HTML.
 
 use super::traced::Traced;
 use super::{Chapter, Workshop, options};
@@ -6,8 +6,8 @@ use crate::html::within_markdown;
 use pulldown_cmark::{Event, LinkType, Parser, Tag, TagEnd};
 use std::ops::Range;
 
-/// The Markdown of a text with its formulas and links to sources made into what mdBook reads, and
-/// whether there is an interactive figure.
+/// Replaces formulas and links to sources by Markdown that mdBook reads; also returns true if the text
+/// has an interactive figure.
 pub(super) fn inlines(
     workshop: &mut Workshop,
     chapter: &Chapter<'_>,
@@ -28,12 +28,12 @@ pub(super) fn inlines(
     (inlines.changed(), inlines.interactive)
 }
 
-/// A text while it is read.
+/// State while a text is read.
 struct Inlines<'a> {
     workshop: &'a mut Workshop,
     chapter: &'a Chapter<'a>,
     traced: &'a Traced,
-    /// What is to be put in place of what.
+    /// Ranges of the text, and their replacements.
     changes: Vec<(Range<usize>, String)>,
     in_code: bool,
     in_table: bool,
@@ -73,14 +73,14 @@ impl Inlines<'_> {
     fn formula(&mut self, tex: &str, range: Range<usize>) {
         let display = self.traced.text[range.clone()].starts_with("$$");
         let origin = self.traced.origin(range.start);
-        // In a table, a bar is written `\|` lest it end the cell.
+        // In a table, a bar is written `\|`, so that it does not end the cell.
         let unescaped = self.in_table.then(|| tex.replace("\\|", "|"));
         let tex = unescaped.as_deref().unwrap_or(tex);
         let html = self.workshop.formula(self.chapter, tex, display, origin);
         self.changes.push((range, within_markdown(&html)));
     }
 
-    /// A link to a source, of which `target` is the file and maybe the symbol.
+    /// Replaces a link to a source; `target` is the file and maybe the symbol.
     fn source(&mut self, target: &str, range: Range<usize>) {
         let Some(start) = self.traced.text[range.clone()].rfind("](source:") else {
             return;
@@ -101,7 +101,7 @@ impl Inlines<'_> {
             .push((start..end, self.chapter.to_root() + &link));
     }
 
-    /// A link that cites something of the bibliography.
+    /// Replaces a link that cites an entry of the bibliography.
     fn cite(&mut self, target: &str, range: Range<usize>) {
         let root = self.chapter.to_root();
         let cited = (self.workshop.bibliography).cite(target, (self.chapter.page, &root));
@@ -112,7 +112,7 @@ impl Inlines<'_> {
         }
     }
 
-    /// Words, in which a dollar has a backslash before it.
+    /// Checks words, in which a dollar sign must have a backslash before it.
     fn words(&mut self, words: &str, at: usize) {
         let (before, text) = self.traced.text.split_at(at);
         let words = match words.strip_prefix('$') {
@@ -134,7 +134,7 @@ impl Inlines<'_> {
         self.workshop.complain(self.chapter, origin, message);
     }
 
-    /// The text with all changes.
+    /// Returns the text with all changes.
     fn changed(&mut self) -> String {
         let text = &self.traced.text;
         self.changes.sort_by_key(|(range, _)| range.start);

@@ -1,4 +1,4 @@
-//! One chapter: what our Markdown has beyond mdBook's becomes plain Markdown and HTML.
+//! One chapter: converts this book's extensions of Markdown to plain Markdown and HTML.
 
 mod blocks;
 mod equations;
@@ -19,21 +19,21 @@ use crate::source::Sources;
 use pulldown_cmark::Options;
 use qrt_drawing::escaped;
 
-/// What all chapters share while they are worked on.
+/// State that all chapters share.
 pub(crate) struct Workshop {
     /// Formulas, and KaTeX.
     pub(crate) formulas: Formulas,
     /// Files of the repository that chapters show.
     pub(crate) sources: Sources,
-    /// What may be cited.
+    /// Entries that a chapter may cite.
     pub(crate) bibliography: Bibliography,
     /// The numbers of figures so far.
     pub(crate) figures: Figures,
-    /// What is wrong so far.
+    /// Complaints so far.
     pub(crate) complaints: Vec<Complaint>,
 }
 
-/// Where a chapter comes from and goes.
+/// Files and names of a chapter.
 pub(crate) struct Chapter<'a> {
     /// Its file, as seen from the repository's root.
     pub(crate) file: &'a str,
@@ -51,18 +51,18 @@ pub(crate) struct Processed {
     pub(crate) markdown: String,
     /// The equations that it restates, and the lines where they begin.
     pub(crate) equations: Vec<(Equation, usize)>,
-    /// Whether it has an interactive figure.
+    /// True if it has an interactive figure.
     pub(crate) interactive: bool,
 }
 
 impl Chapter<'_> {
-    /// From this chapter's page to the book's root.
+    /// Returns the path from this chapter's page to the book's root.
     fn to_root(&self) -> String {
         "../".repeat(self.page.matches('/').count())
     }
 }
 
-/// Markdown as mdBook reads it, with formulas.
+/// Returns the options with which mdBook parses Markdown, with formulas.
 fn options() -> Options {
     Options::ENABLE_TABLES
         | Options::ENABLE_FOOTNOTES
@@ -75,7 +75,7 @@ fn options() -> Options {
 }
 
 impl Workshop {
-    /// Works on a chapter: formulas, equations and links to sources.
+    /// Processes a chapter: formulas, equations and links to sources.
     pub(crate) fn process(&mut self, chapter: &Chapter<'_>, content: &str) -> Processed {
         let mut equations = Vec::new();
         let traced = self.blocks(chapter, content, &mut equations);

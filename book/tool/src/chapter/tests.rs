@@ -1,4 +1,4 @@
-//! What chapters become.
+//! Tests of the conversion of chapters.
 
 use super::traced::origins;
 use super::*;
@@ -32,7 +32,7 @@ fn processed(content: &str) -> (Processed, Vec<String>) {
     (processed, complaints)
 }
 
-/// As mdBook would go on.
+/// Renders HTML as mdBook does in its next step.
 fn html(markdown: &str) -> String {
     let mut html = String::new();
     let options = (options() - Options::ENABLE_MATH) | Options::ENABLE_SMART_PUNCTUATION;
@@ -153,7 +153,7 @@ fn interactive_figures_are_noticed() {
     assert!(!processed("`data-figure=\"map\"`\n").0.interactive);
 }
 
-/// A block of equation 3, each line after `indent`.
+/// Returns a block of equation 3, each line after `indent`.
 fn equation(indent: &str) -> String {
     let lines = [
         "```equation 3",
@@ -176,7 +176,7 @@ fn an_equation_that_is_never_closed_is_told_at_its_line() {
         ["x.md:3: this equation's block is never closed"]
     );
     assert!(shown.equations.is_empty());
-    // Not every fence closes the block.
+    // Each of these fences must leave the block open.
     for end in ["    ```", "``", "~~~", "```text"] {
         let open = equation("").replace("\n```\n", &format!("\n{end}\n"));
         let (_, complaints) = processed(&open);
@@ -195,7 +195,7 @@ fn what_is_code_by_its_indentation_is_no_fence() {
     assert_eq!(complaints, [""; 0]);
     assert!(shown.equations.is_empty());
     assert_eq!(shown.markdown, text);
-    // A fence that stands there closes none.
+    // An indented fence inside a block does not close it.
     let text = "```text\n    ```\n$x$\n```\n\n$y$\n";
     let (shown, _) = processed(text);
     assert!(
@@ -203,7 +203,7 @@ fn what_is_code_by_its_indentation_is_no_fence() {
             .markdown
             .starts_with("```text\n    ```\n$x$\n```\n\n<span")
     );
-    // In a list, it is the list's lines that are indented.
+    // In a list, the lines of the list are indented, and the block counts as a fence.
     let text = format!("1. one\n\n   - two\n\n{}", equation("     "));
     let (shown, complaints) = processed(&text);
     assert_eq!(complaints, [""; 0]);

@@ -1,12 +1,12 @@
-//! Lines that know where they come from.
+//! Lines with the places that they come from.
 
 use crate::html::within_markdown;
 
-/// A text of which each line knows where it comes from.
+/// A text with the place in the file of each line.
 #[derive(Default)]
 pub(super) struct Traced {
     pub(super) text: String,
-    /// Of each line: where it begins in the text, and the line in the file.
+    /// For each line, its offset in the text, and the line's number in the file.
     lines: Vec<(usize, usize)>,
 }
 
@@ -17,7 +17,7 @@ impl Traced {
         self.text.push('\n');
     }
 
-    /// HTML that stands by itself, indented as the line in whose place it comes.
+    /// Appends HTML as a block of its own, indented as the line that it replaces.
     pub(super) fn push_block(&mut self, indented_as: &str, html: &str, origin: usize) {
         let indent: String = indented_as
             .chars()
@@ -36,14 +36,14 @@ impl Traced {
     }
 }
 
-/// For each line of a text into which files may have been included, the line in the file.
+/// Returns, for each line of a text with included files, its line number in the file.
 pub(super) fn origins(expanded: &str, original: &str) -> Vec<usize> {
     let originals: Vec<&str> = original.lines().collect();
     let mut next = 0;
     expanded
         .lines()
         .map(|line| {
-            // An included line is that of the `{{#include}}`: the file stands still there.
+            // An included line gets the line number of its `{{#include}}`.
             let including = originals.get(next).is_some_and(|text| text.contains("{{#"));
             if originals.get(next) == Some(&line) {
                 next += 1;

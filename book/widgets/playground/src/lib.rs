@@ -1,16 +1,16 @@
-//! The playground of the book of qrt: what a worker's script calls.
+//! The playground of the book of qrt: the functions that a worker's script calls.
 //!
-//! A text and numbers are written into the module's memory, where [`qrt_input`] and
-//! [`qrt_arguments`] say; [`qrt_call`] answers, and the script reads the [`Answer`] where
-//! [`qrt_index`] and [`qrt_numbers`] say, until the next call. See [`qrt_runtime::playground`] for
-//! what can be called.
+//! The script writes a text and numbers into the module's memory, at the addresses from [`qrt_input`]
+//! and [`qrt_arguments`]. [`qrt_call`] runs the call, and the script reads the [`Answer`] at the
+//! addresses from [`qrt_index`] and [`qrt_numbers`], until the next call. See
+//! [`qrt_runtime::playground`] for the calls.
 #![warn(
     missing_docs,
     clippy::pedantic,
     clippy::unwrap_used,
     clippy::expect_used
 )]
-// As in the workspace of qrt.
+// The same lint settings as in the workspace of qrt.
 #![allow(clippy::must_use_candidate)]
 
 #[path = "../../../../scenes-yaml/examples.rs"]
@@ -43,7 +43,7 @@ fn with<T>(work: impl FnOnce(&mut State) -> T) -> T {
     STATE.with_borrow_mut(work)
 }
 
-/// Room for a text of so many bytes, in UTF-8, which the next call reads: its first line is the
+/// Allocates `bytes` bytes for a text in UTF-8, which the next call reads: its first line is the
 /// call's name.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_input(bytes: usize) -> *mut u8 {
@@ -54,7 +54,7 @@ pub extern "C" fn qrt_input(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Room for so many numbers, which the next call reads.
+/// Allocates memory for `count` numbers, which the next call reads.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_arguments(count: usize) -> *mut f64 {
     with(|state| {
@@ -64,7 +64,7 @@ pub extern "C" fn qrt_arguments(count: usize) -> *mut f64 {
     })
 }
 
-/// Answers a call.
+/// Runs a call.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_call() {
     with(|state| {
@@ -75,25 +75,25 @@ pub extern "C" fn qrt_call() {
     });
 }
 
-/// The index of the last answer: JSON.
+/// Address of the index of the last answer: JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_index() -> *const u8 {
     with(|state| state.index.as_ptr())
 }
 
-/// Its bytes.
+/// Length of the index in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_index_length() -> usize {
     with(|state| state.index.len())
 }
 
-/// The numbers of the last answer.
+/// Address of the numbers of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_numbers() -> *const f64 {
     with(|state| state.answer.numbers().as_ptr())
 }
 
-/// How many.
+/// Number of these numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_numbers_length() -> usize {
     with(|state| state.answer.numbers().len())
@@ -114,7 +114,7 @@ mod tests {
         with(|state| state.answer.clone())
     }
 
-    /// Every scene of the folder is there, with its files, and can be opened.
+    /// Checks that every scene of the folder is there, with its files, and opens.
     #[test]
     fn all_example_scenes_are_there_and_open() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../scenes-yaml");

@@ -1,4 +1,4 @@
-//! The calls of the figure `circuit`.
+//! Calls of the figure `circuit`.
 
 use super::{NOT_LOADED, answer};
 use crate::circuit::{Stepper, description};
@@ -8,7 +8,7 @@ thread_local! {
     static STEPPER: RefCell<Option<Stepper>> = RefCell::default();
 }
 
-/// [`Stepper::new`], and [`description`].
+/// Calls [`Stepper::new`], and answers with [`description`].
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_circuit() {
     answer(Stepper::new().map(|stepper| {
@@ -17,7 +17,7 @@ pub extern "C" fn qrt_circuit() {
     }));
 }
 
-/// [`Stepper::step`]
+/// Calls [`Stepper::step`].
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_circuit_step(id: u32, comparator: u32, position: usize) {
     answer(STEPPER.with_borrow_mut(|stepper| {

@@ -1,16 +1,16 @@
-//! The calls of the figure `counting`.
+//! Calls of the figure `counting`.
 
 use super::answer;
 use crate::counting::{self, Asked};
 use qrt_core::scene::Window;
 
-/// [`counting::angles`]
+/// Calls [`counting::angles`].
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_counting_angles() {
     answer(counting::angles());
 }
 
-/// [`counting::answer`]; `sine` is 0 for the rectangular window.
+/// Calls [`counting::answer`]; `sine` is 0 for the rectangular window.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_counting(theta: f64, phase_bits: u32, runs: u32, sine: u32, seed: u32) {
     answer(counting::answer(Asked {

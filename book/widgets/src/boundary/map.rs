@@ -1,11 +1,11 @@
-//! The calls of the figure `map`.
+//! Calls of the figure `map`.
 
 use super::{answer, text};
 use crate::map::{self, Chosen};
 use qrt_core::scene::Map;
 
-/// [`map::answer`]; `chosen` is 0 for the uniform map, 1 for the cosine map, and anything else for
-/// the one of the input's three lines.
+/// Calls [`map::answer`]; `chosen` is 0 for the uniform map, 1 for the cosine map, and anything else for
+/// the map in the input's three lines.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_map(chosen: u32, bits: u32) {
     let chosen = match chosen {

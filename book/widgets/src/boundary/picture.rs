@@ -1,4 +1,4 @@
-//! The calls of the figure `picture`.
+//! Calls of the figure `picture`.
 
 use super::{NOT_LOADED, answer, text};
 use crate::picture::Picture;
@@ -16,7 +16,7 @@ fn with<E: From<&'static str>>(
     PICTURE.with_borrow_mut(|picture| work(picture.as_mut().ok_or(NOT_LOADED)?))
 }
 
-/// [`Picture::new`], and what it is.
+/// Calls [`Picture::new`], and answers with its description.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_picture() {
     answer(Picture::new().map(|picture| {
@@ -26,13 +26,13 @@ pub extern "C" fn qrt_picture() {
     }));
 }
 
-/// [`Picture::trace`]
+/// Calls [`Picture::trace`].
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_picture_trace(count: usize) {
     answer(with(|picture| Ok::<_, &str>(picture.trace(count))));
 }
 
-/// [`Picture::estimate`], by the estimator that the input names.
+/// Calls [`Picture::estimate`] with the estimator that the input names.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_picture_estimate(phase_bits: u32, seed: u32, first: usize, count: usize) {
     let pixels = first..first.saturating_add(count);
@@ -41,7 +41,7 @@ pub extern "C" fn qrt_picture_estimate(phase_bits: u32, seed: u32, first: usize,
     }));
 }
 
-/// [`Picture::summary`]
+/// Calls [`Picture::summary`].
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_picture_summary() {
     answer(with(|picture| Ok::<_, Box<dyn Error>>(picture.summary())));

@@ -1,4 +1,4 @@
-//! OpenEXR.
+//! Reader of OpenEXR pictures.
 
 use super::{Picture, PlaceInFrame, check_size, in_words, is_rec_709, refused};
 use crate::cli::failure::Failure;
@@ -12,11 +12,11 @@ use qrt_runtime::image::Image;
 use qrt_runtime::memory::Memory;
 use std::path::Path;
 
-/// The radiance in an OpenEXR file: its channels R, G and B, or Y for all three.
+/// Reads the radiance of an OpenEXR file: its channels R, G and B, or Y for all three.
 ///
 /// # Errors
-/// No OpenEXR, one without these channels, with colours of other primaries, or with a value that is no
-/// number.
+/// A file that is not OpenEXR, that lacks these channels, whose colours have other primaries, or that has
+/// a value that is not a number.
 pub(in crate::cli::diff) fn exr(path: &Path, memory: Memory) -> Result<Picture, Failure> {
     let failed = |error: ExrError| match error {
         ExrError::Io(error) => Failure::file(path, &error),
@@ -117,7 +117,7 @@ impl<'a> Channels<'a> {
         all.filter(move |channel| channel.name.eq_case_insensitive(name))
     }
 
-    /// The samples of a channel that has one for each pixel.
+    /// Returns the samples of the channel `name` if it has one for each pixel.
     fn get(&self, name: &str) -> Option<&'a FlatSamples> {
         let whole = |sampling: Vec2<usize>| sampling.x() == 1 && sampling.y() == 1;
         let found = self.named(name).find(|channel| whole(channel.sampling));

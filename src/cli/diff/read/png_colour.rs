@@ -1,16 +1,16 @@
 //! Colour space of a PNG file, by the precedence of the PNG specification (third edition,
 //! section 4.3): `cICP`, then `iCCP`, then `sRGB`, then `gAMA` and `cHRM`.
 //!
-//! The chunks are read here, not by the decoder, which leaves out those that it cannot parse.
+//! This module reads the chunks itself, because the decoder leaves out those that it cannot parse.
 
 use super::{in_words, is_rec_709};
 use qrt_runtime::image::linear_of_srgb;
 use std::io::{self, Read, Seek};
 
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
-/// Chunks that decide what colours the samples are.
+/// Chunks that decide the colour space of the samples.
 const KINDS: [[u8; 4]; 6] = [*b"cICP", *b"iCCP", *b"sRGB", *b"gAMA", *b"cHRM", *b"acTL"];
-/// Bytes of a chunk that are looked at: those of all kinds, and the name of a profile.
+/// Number of bytes read of a chunk: enough for every kind, and for the name of a profile.
 const LOOKED_AT: u64 = 80;
 /// Units per 1 in `gAMA` and `cHRM`.
 const UNIT: f64 = 100_000.0;
@@ -25,7 +25,7 @@ pub(super) enum Transfer {
 }
 
 impl Transfer {
-    /// The linear light of a sample; both are from 0 to 1.
+    /// Returns the linear light of a sample; both are from 0 to 1.
     pub(super) fn light(self, sample: f64) -> f64 {
         match self {
             Self::Srgb => linear_of_srgb(sample),
@@ -34,15 +34,15 @@ impl Transfer {
     }
 }
 
-/// The first bytes of each chunk that tells of colours.
+/// The first bytes of each chunk that describes colours.
 #[derive(Debug, Default)]
 pub(super) struct ColourChunks(Vec<([u8; 4], Vec<u8>)>);
 
 impl ColourChunks {
-    /// Reads the chunks of a file from its beginning; none of a file that is no PNG.
+    /// Reads the chunks of a file from its beginning. A file that is not PNG has none.
     ///
     /// # Errors
-    /// The file system's, or in words, why the chunks make no sense.
+    /// An error of the file system, or in words, why the chunks make no sense.
     pub(super) fn read(mut file: impl Read + Seek) -> io::Result<Result<Self, String>> {
         let mut chunks = Self::default();
         let mut signature = [0; 8];
@@ -51,7 +51,7 @@ impl ColourChunks {
         }
         let mut in_image = false;
         let mut head = [0; 8];
-        // The decoder finds out whether the file ends where it should.
+        // The decoder reports a file that ends too early.
         while filled(&mut file, &mut head)? {
             let [a, b, c, d, kind @ ..] = head;
             let length = u64::from(u32::from_be_bytes([a, b, c, d]));
@@ -72,7 +72,7 @@ impl ColourChunks {
                 rest -= read as u64;
                 chunks.0.push((known, bytes));
             }
-            // And its check sum.
+            // Skip the checksum, too.
             file.seek_relative(rest as i64 + 4)?;
         }
         Ok(Ok(chunks))
@@ -86,7 +86,7 @@ impl ColourChunks {
     /// Returns the function from samples to linear light with the primaries of Rec. 709.
     ///
     /// # Errors
-    /// In words, which colours the file has that this is not known of, and what to do.
+    /// In words, the colour space that has no such function, and the remedy.
     pub(super) fn transfer(&self) -> Result<Transfer, String> {
         if self.get(*b"acTL").is_some() {
             return Err("it is animated: save one picture of it".to_owned());
@@ -116,7 +116,7 @@ impl ColourChunks {
                 let bytes = numbers.next().copied().unwrap_or_default();
                 f64::from(u32::from_be_bytes(bytes)) / UNIT
             };
-            // White stands first.
+            // `cHRM` has white first.
             let [white, red, green, blue] = std::array::from_fn(|_| [number(), number()]);
             let found = [red, green, blue, white];
             if !is_rec_709(found) {
@@ -158,7 +158,7 @@ fn damaged(kind: &str) -> String {
     format!("its chunk `{kind}` is damaged: save the picture again, as sRGB")
 }
 
-/// Fills `bytes`; false if the file ends before.
+/// Fills `bytes`; returns false if the file ends before.
 fn filled(file: &mut impl Read, bytes: &mut [u8]) -> io::Result<bool> {
     match file.read_exact(bytes) {
         Ok(()) => Ok(true),

@@ -1,4 +1,4 @@
-//! PNG.
+//! Reader of PNG pictures.
 
 use super::png_colour::ColourChunks;
 use super::{Picture, check_size, refused};
@@ -10,10 +10,10 @@ use qrt_runtime::memory::Memory;
 use std::io::{BufReader, Seek};
 use std::path::Path;
 
-/// The linear light, from 0 to 1, that a display shows of a PNG.
+/// Reads a PNG as the linear light, from 0 to 1, that a display shows.
 ///
 /// # Errors
-/// No PNG, one of colours that are not read, or one with transparent pixels.
+/// A file that is not PNG, has an unsupported colour space, or has transparent pixels.
 pub(in crate::cli::diff) fn png(path: &Path, memory: Memory) -> Result<Picture, Failure> {
     let of_file = |error| Failure::file(path, &error);
     let failed = |error: DecodingError| match error {
@@ -36,7 +36,7 @@ pub(in crate::cli::diff) fn png(path: &Path, memory: Memory) -> Result<Picture, 
     let size = size.ok_or_else(|| refused(path, "it is too large"))?;
     let mut bytes = vec![0; size];
     let frame = reader.next_frame(&mut bytes).map_err(failed)?;
-    // Of a damaged end is told, too.
+    // Reading to the end reports a damaged end, too.
     reader.finish().map_err(failed)?;
     let samples = frame.color_type.samples();
     let wide = frame.bit_depth == BitDepth::Sixteen;
