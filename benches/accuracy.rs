@@ -12,19 +12,17 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt_core::scene::meshes::Meshes;
-use qrt_core::scene::{
-    Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene,
-};
 use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_core::valid::{ValidScene, validate};
-use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
-use qrt_runtime::machines::Real;
+use qrt_counting::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt_counting::random::Stream;
+use qrt_runtime::path_machines::Real;
 use qrt_runtime::plan::{self, Plan};
-use qrt_runtime::random::Stream;
 use qrt_runtime::render::{Model, Options, render};
 use qrt_runtime::sample::{Means, prefix_means, radiance, spread};
 use qrt_runtime::workers::Workers;
+use qrt_scene::meshes::Meshes;
+use qrt_scene::valid::{ValidScene, validate};
+use qrt_scene::{Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -56,7 +54,7 @@ const LACK: f64 = 0.02;
 fn scene(name: &str, sets: &[&str], error: f64) -> ValidScene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml");
     let sets: Vec<String> = sets.iter().map(|&set| set.into()).collect();
-    let loaded = qrt_core::front::load(&root.join(format!("{name}.yaml")), &sets);
+    let loaded = qrt_scene::front::load(&root.join(format!("{name}.yaml")), &sets);
     let scene: Scene = loaded.unwrap().valid.scene().clone();
     let scene = Scene {
         film: Film {

@@ -8,10 +8,10 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt_core::front::load;
 use qrt_core::oracle::luminance;
-use qrt_core::scene::Estimator;
 use qrt_runtime::render::{Colour, Options, render};
+use qrt_scene::Estimator;
+use qrt_scene::front::load;
 use std::path::Path;
 
 const SCENES: [&str; 3] = ["cornell-box", "floor-and-light", "velvet"];

@@ -7,10 +7,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use qrt_core::scene::{Comparator, ComparatorAt, Counting, Estimator, Window};
-use qrt_runtime::counting::{Comparators, PhaseDistribution};
-use qrt_runtime::estimators::{Problem, estimate};
-use qrt_runtime::random::Stream;
+use qrt_counting::estimators::{Problem, estimate};
+use qrt_counting::random::Stream;
+use qrt_counting::{Comparators, PhaseDistribution};
+use qrt_scene::{Comparator, ComparatorAt, Counting, Estimator, Window};
 
 const PROBLEM: Problem = Problem {
     good: 1_234_567,

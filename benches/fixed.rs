@@ -27,8 +27,9 @@ mod scenes;
 
 use promises::Promises;
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Gates, OracleCircuits, OracleMachine, Span};
+use qrt::machines::{Gates, Span};
+use qrt::runtime::path_machines::{OracleCircuits, OracleMachine};
+use qrt::scene::valid::ValidScene;
 use scenes::CIRCUITS;
 use std::path::Path;
 use std::process::ExitCode;
@@ -107,7 +108,7 @@ fn fixed_speed(machine: &OracleMachine, threads: usize) -> f64 {
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                let finished = |found: qrt::runtime::machines::Finished<'_>| {
+                let finished = |found: qrt::runtime::path_machines::Finished<'_>| {
                     std::hint::black_box(found.good);
                 };
                 let traced = machine.trace(&PIXELS, 0..machine.paths(), finished);

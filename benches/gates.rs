@@ -49,8 +49,9 @@ use qrt::circuit::{
 };
 use qrt::core::compile::Strategy;
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Fixed, Gates, InstructionSet, OracleCircuits, OracleMachine, Span};
+use qrt::machines::{Fixed, Gates, InstructionSet, Span};
+use qrt::runtime::path_machines::{OracleCircuits, OracleMachine};
+use qrt::scene::valid::ValidScene;
 use scenes::CIRCUITS;
 use std::path::Path;
 use std::process::ExitCode;

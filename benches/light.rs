@@ -17,12 +17,12 @@
 mod promises;
 
 use promises::Promises;
-use qrt::core::front::load;
 use qrt::core::oracle::{Oracle, call_cost};
-use qrt::core::scene::Estimator;
 use qrt::core::tracer::{PixelClass, PixelClasses};
-use qrt::core::valid::ValidScene;
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::front::load;
+use qrt::scene::valid::ValidScene;
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -15,8 +15,9 @@
 mod promises;
 
 use promises::Promises;
+use qrt::machines::InstructionSet;
 use qrt::prelude::*;
-use qrt::runtime::machines::{Finished, InstructionSet, NativeOracle, OracleMachine};
+use qrt::runtime::path_machines::{Finished, NativeOracle, OracleMachine};
 use std::process::ExitCode;
 use std::time::Instant;
 

@@ -23,11 +23,11 @@ mod promises;
 
 use growth::{chance, fit, quads};
 use promises::Promises;
-use qrt::core::front;
 use qrt::core::oracle::NearestOracle;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{NearestMachine, PathRun, PrimaryHits};
+use qrt::runtime::path_machines::{NearestMachine, PathRun, PrimaryHits};
 use qrt::runtime::search::{FoundHits, Guess, Method, Rounds};
+use qrt::scene::front;
+use qrt::scene::valid::ValidScene;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::ExitCode;

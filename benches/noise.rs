@@ -19,9 +19,9 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt_core::scene::{Counting, Estimator, Window};
-use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
-use qrt_runtime::random::Stream;
+use qrt_counting::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt_counting::random::Stream;
+use qrt_scene::{Counting, Estimator, Window};
 
 const TOTAL: u64 = 1 << 20;
 const RUNS: u32 = 300;

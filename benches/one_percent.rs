@@ -9,10 +9,10 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt_core::front::parse;
-use qrt_core::scene::Estimator;
 use qrt_runtime::plan::plan;
 use qrt_runtime::render::{Options, Rendered, render};
+use qrt_scene::Estimator;
+use qrt_scene::front::parse;
 use std::path::Path;
 
 fn main() {

@@ -10,9 +10,9 @@
 use std::time::Instant;
 
 use qrt::drawing::Fit;
-use qrt_core::scene::{Counting, Estimator, Window};
-use qrt_runtime::estimators::{Device, Noise, Problem, Settings, estimator};
-use qrt_runtime::random::Stream;
+use qrt_counting::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt_counting::random::Stream;
+use qrt_scene::{Counting, Estimator, Window};
 
 /// The estimators, each with the largest allowed queries x 95th-percentile error.
 const ESTIMATORS: [(Estimator, f64); 3] = [

@@ -20,11 +20,10 @@ mod promises;
 
 use promises::Promises;
 use qrt::circuit::quantum::{Counting, PhaseOracle, QuantumGate};
-use qrt::core::scene::Window;
-use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::machines::statevector::{
-    Checks, Dense, Sparse, StateVector, count, fold, reduced, subspace,
-};
+use qrt::counting::PhaseDistribution;
+use qrt::counting::amplitudes::{reduced, subspace};
+use qrt::machines::statevector::{Checks, Dense, Sparse, StateVector, count, fold};
+use qrt::scene::Window;
 use serde_json::{Value, json};
 use std::convert::Infallible;
 use std::io::Write;

@@ -14,7 +14,7 @@ mod independent;
 
 use independent::{Picture, SIDE, asking, mean, picture, reference, rms_difference, scene, traced};
 use qrt::drawing::Fit;
-use qrt_runtime::machines::Real;
+use qrt_runtime::path_machines::Real;
 use std::fmt::Write as _;
 
 const SCENE: &str = "cornell_mg";

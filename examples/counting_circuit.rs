@@ -10,11 +10,11 @@
 //! from, which depends only on the number of good indices.
 
 use qrt::core::oracle::Oracle;
-use qrt::core::scene::Window;
+use qrt::counting::PhaseDistribution;
+use qrt::machines::statevector::counting_of;
 use qrt::prelude::*;
-use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::machines::OracleMachine;
-use qrt::runtime::machines::statevector::counting_of;
+use qrt::runtime::path_machines::OracleMachine;
+use qrt::scene::Window;
 use std::sync::Arc;
 
 const SCENE: &str = include_str!("lit-wall.yaml");
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
         let oracle = Oracle::new(&scene, channel, qrt::core::oracle::Options::default())?;
-        let counted = counting_of(&oracle, 0, SEED, PIXEL, PHASE_BITS, Window::Sine)?;
+        let counted = counting_of(&oracle.phase(0, SEED, PIXEL)?, PHASE_BITS, Window::Sine)?;
         let report = &counted.report;
         println!(
             "{name}: {} gates in {} queries on {} qubits, {} of them in superposition;\n  \

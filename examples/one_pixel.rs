@@ -7,10 +7,10 @@
 // ANCHOR: uses
 use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate, Window};
 use qrt::circuit::{Circuit, Gate, lower};
+use qrt::counting::maximum_likelihood;
+use qrt::counting::random::Stream;
+use qrt::machines::statevector::{Sparse, StateVector, fold};
 use qrt::prelude::*;
-use qrt::runtime::counting::maximum_likelihood;
-use qrt::runtime::machines::statevector::{Sparse, StateVector, fold};
-use qrt::runtime::random::Stream;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 // ANCHOR_END: uses
@@ -127,7 +127,7 @@ pub(crate) fn count(oracle: &PhaseOracle, seed: u64) -> Outcome<(Vec<f64>, u64)>
     counting.part(Part::Counting, &mut |gate| machine.gate(gate))?;
     let register = counting.phase_register();
     let outcomes = fold(&machine.distribution(register)?);
-    let y = machine.measure(register, &mut Stream::new(seed, 0, 0, 0))?;
+    let y = machine.measure(register, Stream::new(seed, 0, 0, 0).uniform())?;
     Ok((outcomes, y.min(32 - y)))
 }
 // ANCHOR_END: count

@@ -6,12 +6,12 @@ use qrt_circuit::{
     Bit, Circuit, Contents, Declaration, Gate, Machine, Operand, Program, Qubit, Recorded,
     Recorder, RegisterId, Style, Type, Word, lower,
 };
-use qrt_core::expr::{Domain, Expr, Variable, Variables};
-use qrt_core::front::{Files, parse_with};
-use qrt_core::scene::Scene;
-use qrt_core::valid::Polygon;
 use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, Part, Tile};
 use qrt_runtime::render::Merge;
+use qrt_scene::Scene;
+use qrt_scene::expr::{Domain, Expr, Variable, Variables};
+use qrt_scene::front::{Files, parse_with};
+use qrt_scene::valid::Polygon;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 

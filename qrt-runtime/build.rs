@@ -9,7 +9,14 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// This crate's sources, and those of the crates beside it, where they stand beside it.
-const SOURCES: [&str; 3] = ["src", "../qrt-core/src", "../qrt-circuit/src"];
+const SOURCES: [&str; 6] = [
+    "src",
+    "../qrt-core/src",
+    "../qrt-circuit/src",
+    "../qrt-counting/src",
+    "../qrt-machines/src",
+    "../qrt-scene/src",
+];
 
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());

@@ -72,8 +72,9 @@
 //! kinds, `serde` reads and writes scenes and their parts. A crate that sets `default-features = false`
 //! builds none of their dependencies.
 //!
-//! [`core`] holds the code that needs no machine: the scene, its checks, the sequences of paths and
-//! the tracer. [`runtime`] holds the code that runs: machines, counting, rendering, files. [`drawing`] draws.
+//! [`scene`] reads and checks scenes, and [`core`] takes a checked scene to its oracle: the tracer and
+//! the compiler. [`machines`] run circuits, [`counting`] estimates amplitudes, and [`runtime`] renders
+//! pictures and writes files with them. [`drawing`] draws.
 //!
 //! # Where to go from here
 //!
@@ -97,7 +98,7 @@ struct Readme;
 /// Points and directions: the vectors that scenes are written with, in the version that qrt uses.
 ///
 /// ```
-/// use qrt::core::scene::Perspective;
+/// use qrt::scene::Perspective;
 /// let eye = qrt::glam::DVec3::new(0.0, 1.0, 2.0);
 /// let camera = Perspective { eye, ..Perspective::default() };
 /// assert_eq!(camera.eye.length_squared(), 5.0);
@@ -106,7 +107,9 @@ pub use glam;
 /// Reversible circuits: registers, operations, programs, gates and their costs.
 pub use qrt_circuit as circuit;
 pub use qrt_core as core;
+pub use qrt_counting as counting;
 pub use qrt_drawing as drawing;
+pub use qrt_machines as machines;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
 #[doc(hidden)]
@@ -114,5 +117,7 @@ pub use qrt_macros::qrt_with_terms as __qrt_with_terms;
 #[doc = include_str!("reversible.md")]
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
+/// The scene language: scenes, their checks, and the sequences of paths.
+pub use qrt_scene as scene;
 
 pub mod prelude;

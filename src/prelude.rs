@@ -45,26 +45,6 @@ pub use qrt_circuit::format::{Bool, Fixed, Format, Int, Reg, UFixed, UInt};
 /// # Ok::<(), run::RunError>(())
 /// ```
 pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Word};
-/// Reads a scene from a file or a text, and reports all of its errors at once.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// let text = "
-/// name: dark
-/// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
-/// film: { width: 8, height: 8 }
-/// materials: {}
-/// geometry: []
-/// ";
-/// let loaded: Loaded = parse(text, "dark.yaml", &["film.width=4".into()], "".as_ref())?;
-/// assert_eq!(loaded.valid.scene().film.width, 4);
-///
-/// let report = load("no-such-scene.yaml".as_ref(), &[]).unwrap_err();
-/// assert!(report.to_string().contains("no-such-scene.yaml"));
-/// # Ok::<(), qrt::core::syntax::Report>(())
-/// ```
-pub use qrt_core::front::{Loaded, load, parse};
 /// The circuit of a scene of `qrt!`.
 ///
 /// ```
@@ -109,10 +89,11 @@ pub use qrt_core::oracle::compiled::CompiledOracle;
 /// assert_eq!(faces::<Glow>(), 1);
 /// ```
 pub use qrt_core::oracle::paths::PathScene;
-/// A scene's circuit, compiled at run time, and the program of one pixel.
+/// A scene's circuit, compiled at run time, the program of one pixel, and its paths on each machine.
 ///
 /// ```
-/// use qrt::core::{oracle, scene::Emitter};
+/// use qrt::core::oracle;
+/// use qrt::scene::Emitter;
 /// use qrt::prelude::*;
 ///
 /// let scene = Scene::builder("glow")
@@ -126,8 +107,8 @@ pub use qrt_core::oracle::paths::PathScene;
 /// // Under the seed 1, in the left column, which the lamp leaves dark, and in the right one.
 /// let dark: BoundProgram = oracle.program_at(1, [0, 0]);
 /// let lit = oracle.program_at(1, [1, 0]);
-/// assert_eq!(run::paths_on_fixed(&dark, 0..4)?, [[0, 0, 0]; 4]);
-/// assert_eq!(run::paths_on_gates(&lit, 0..4)?, [[1024, 1024, 0]; 4]);
+/// assert_eq!(run_paths::on_fixed(&dark, 0..4)?, [[0, 0, 0]; 4]);
+/// assert_eq!(run_paths::on_gates(&lit, 0..4)?, [[1024, 1024, 0]; 4]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_core::oracle::{BoundProgram, Oracle};
@@ -160,51 +141,12 @@ pub use qrt_core::oracle::{BoundProgram, Oracle};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_core::oracle::{Marks, Predicate};
-/// A scene written in Rust.
-///
-/// ```
-/// use qrt::core::scene::{Counting, Lambertian};
-/// use qrt::prelude::*;
-///
-/// let builder: SceneBuilder = Scene::builder("floor")
-///     .material("floor", Lambertian { albedo: [0.5; 3] })
-///     .triangle("floor", [[-1., 0., 1.], [1., 0., 1.], [0., 0., -1.]])
-///     .counting(Counting { estimator: Estimator::Sine, ..Counting::default() });
-/// let mut scene: Scene = builder.build();
-/// scene.film.width = 32;
-/// assert!(scene.to_yaml().contains("film: { width: 32, height: 64 }"));
-/// ```
-pub use qrt_core::scene::{Estimator, Scene, SceneBuilder};
-/// All problems of a scene, each at its place in the text.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// let report: Report = parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
-/// assert!(report.render(false).contains("--> seven.yaml:1:7"));
-/// ```
-pub use qrt_core::syntax::Report;
-/// A checked scene, or all of its errors.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// fn faces(scene: Scene) -> Result<usize, InvalidScene> {
-///     let valid: ValidScene = validate(scene, &Default::default())?;
-///     Ok(valid.polygons().len())
-/// }
-/// let faulty = Scene::builder("flat").film(64, 0).build();
-/// let problems = faces(faulty).unwrap_err();
-/// assert_eq!(problems[0].path().unwrap().to_string(), "film.height");
-/// ```
-pub use qrt_core::valid::{InvalidScene, ValidScene, validate};
-pub use qrt_macros::{qrt, reversible};
 /// A user-defined estimator.
 ///
 /// ```
 /// use qrt::prelude::*;
-/// use qrt::runtime::estimators::{Device, Estimate, EstimatorError, Exact, Noise, Problem};
-/// use qrt::runtime::random::Stream;
+/// use qrt::counting::estimators::{Device, Estimate, EstimatorError, Exact, Noise, Problem};
+/// use qrt::counting::random::Stream;
 ///
 /// /// Counts nothing, and says so by its interval.
 /// struct Half;
@@ -221,7 +163,56 @@ pub use qrt_macros::{qrt, reversible};
 /// assert_eq!(Exact.estimate(&mut device)?.amplitude, 3.0 / 8.0);
 /// # Ok::<(), EstimatorError>(())
 /// ```
-pub use qrt_runtime::estimators::AmplitudeEstimator;
+pub use qrt_counting::estimators::AmplitudeEstimator;
+/// Runs one path step by step, and compiles code for many paths.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// qrt! {
+///     scene Glow {
+///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+///         film: 2 x 2,
+///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
+///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
+///         sampling { path_bits: 2 },
+///         depth primary { bits: (2, 2) },
+///     }
+/// }
+///
+/// // Path 3 of the right column: red exceeds all 2^10 comparators.
+/// let (mut state, id) = State::path::<Glow>(0, [1, 0], 3)?;
+/// let red = Glow::within(&mut state, &id, |state, path| state.operand(path.counts()[0]));
+/// assert_eq!(red, 1024);
+/// state.clean()?;
+///
+/// fn picture<C: NativeOracle>() -> Result<Rendered, RenderError> {
+///     render_compiled::<C>(&Options { model: Model::Fixed, ..Options::default() })
+/// }
+/// assert_eq!(picture::<Glow>()?.image.pixels.len(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+/// Predicates on the paths of a scene: counts and renders those that satisfy them.
+pub use qrt_machines::State;
+/// Runs programs on each machine: see [the module](run).
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// /// a += b
+/// #[reversible]
+/// fn add(a: &mut UInt<3>, b: &UInt<3>) {
+///     a += wrapping(b);
+/// }
+///
+/// let program = add_program(Style::InPlace);
+/// let states = [[3, 4], [7, 7]];
+/// assert_eq!(run::on_definition(&program, &states)?, [[7, 4], [6, 7]]);
+/// assert_eq!(run::on_gates(&program, &states)?, run::on_fixed(&program, &states)?);
+/// # Ok::<(), run::RunError>(())
+/// ```
+pub use qrt_machines::run;
+pub use qrt_macros::{qrt, reversible};
 /// Writes pictures and counts to files and to any writer.
 ///
 /// ```
@@ -254,54 +245,8 @@ pub use qrt_runtime::estimators::AmplitudeEstimator;
 pub use qrt_runtime::image::{
     Encoding, Image, ImageError, Metadata, save, write_counts, write_counts_to, write_to,
 };
-/// Runs programs on each machine: see [the module](run).
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// /// a += b
-/// #[reversible]
-/// fn add(a: &mut UInt<3>, b: &UInt<3>) {
-///     a += wrapping(b);
-/// }
-///
-/// let program = add_program(Style::InPlace);
-/// let states = [[3, 4], [7, 7]];
-/// assert_eq!(run::on_definition(&program, &states)?, [[7, 4], [6, 7]]);
-/// assert_eq!(run::on_gates(&program, &states)?, run::on_fixed(&program, &states)?);
-/// # Ok::<(), run::RunError>(())
-/// ```
-pub use qrt_runtime::machines::run;
-/// Runs one path step by step, and compiles code for many paths.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
-/// // Path 3 of the right column: red exceeds all 2^10 comparators.
-/// let (mut state, id) = State::path::<Glow>(0, [1, 0], 3)?;
-/// let red = Glow::within(&mut state, &id, |state, path| state.operand(path.counts()[0]));
-/// assert_eq!(red, 1024);
-/// state.clean()?;
-///
-/// fn picture<C: NativeOracle>() -> Result<Rendered, RenderError> {
-///     render_compiled::<C>(&Options { model: Model::Fixed, ..Options::default() })
-/// }
-/// assert_eq!(picture::<Glow>()?.image.pixels.len(), 4);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub use qrt_runtime::machines::{NativeOracle, State};
-/// Predicates on the paths of a scene: counts and renders those that satisfy them.
+pub use qrt_runtime::path_machines::run_paths;
+pub use qrt_runtime::path_machines::{NativeOracle, PathState};
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -358,7 +303,7 @@ pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
 /// assert!(matches!(refused, RenderError::Compiled(CompiledError::Model)));
 ///
 /// // By an estimator of one's own: here a known one, under another name.
-/// use qrt::runtime::estimators::estimator;
+/// use qrt::counting::estimators::estimator;
 /// let own = OwnEstimator::new("mine", &|settings| estimator(Estimator::Sine, settings));
 /// let counted = render(Glow::scene(), &Options { own_estimator: Some(own), ..fixed })?;
 /// assert_eq!(counted.own_estimator.as_deref(), Some("mine"));
@@ -386,3 +331,61 @@ pub use qrt_runtime::render::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_runtime::workers::{Progress, Workers};
+/// Reads a scene from a file or a text, and reports all of its errors at once.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// let text = "
+/// name: dark
+/// camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+/// film: { width: 8, height: 8 }
+/// materials: {}
+/// geometry: []
+/// ";
+/// let loaded: Loaded = parse(text, "dark.yaml", &["film.width=4".into()], "".as_ref())?;
+/// assert_eq!(loaded.valid.scene().film.width, 4);
+///
+/// let report = load("no-such-scene.yaml".as_ref(), &[]).unwrap_err();
+/// assert!(report.to_string().contains("no-such-scene.yaml"));
+/// # Ok::<(), qrt::scene::syntax::Report>(())
+/// ```
+pub use qrt_scene::front::{Loaded, load, parse};
+/// All problems of a scene, each at its place in the text.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// let report: Report = parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
+/// assert!(report.render(false).contains("--> seven.yaml:1:7"));
+/// ```
+pub use qrt_scene::syntax::Report;
+/// A checked scene, or all of its errors.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// fn faces(scene: Scene) -> Result<usize, InvalidScene> {
+///     let valid: ValidScene = validate(scene, &Default::default())?;
+///     Ok(valid.polygons().len())
+/// }
+/// let faulty = Scene::builder("flat").film(64, 0).build();
+/// let problems = faces(faulty).unwrap_err();
+/// assert_eq!(problems[0].path().unwrap().to_string(), "film.height");
+/// ```
+pub use qrt_scene::valid::{InvalidScene, ValidScene, validate};
+/// A scene written in Rust.
+///
+/// ```
+/// use qrt::scene::{Counting, Lambertian};
+/// use qrt::prelude::*;
+///
+/// let builder: SceneBuilder = Scene::builder("floor")
+///     .material("floor", Lambertian { albedo: [0.5; 3] })
+///     .triangle("floor", [[-1., 0., 1.], [1., 0., 1.], [0., 0., -1.]])
+///     .counting(Counting { estimator: Estimator::Sine, ..Counting::default() });
+/// let mut scene: Scene = builder.build();
+/// scene.film.width = 32;
+/// assert!(scene.to_yaml().contains("film: { width: 32, height: 64 }"));
+/// ```
+pub use qrt_scene::{Estimator, Scene, SceneBuilder};

@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use qrt::core::syntax::codes;
+use qrt::scene::syntax::codes;
 use std::path::Path;
 
 #[test]

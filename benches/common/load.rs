@@ -1,7 +1,7 @@
 //! Loads scenes from files.
 
-use qrt::core::front;
-use qrt::core::valid::ValidScene;
+use qrt::scene::front;
+use qrt::scene::valid::ValidScene;
 use std::path::Path;
 
 /// Loads the scene at `path` in the repository `root`, with the overrides `sets`.

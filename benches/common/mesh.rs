@@ -2,7 +2,7 @@
 
 use super::knot;
 use super::load::load;
-use qrt::core::valid::ValidScene;
+use qrt::scene::valid::ValidScene;
 use std::path::Path;
 
 /// Pixels along each side of the film.

@@ -1,8 +1,8 @@
 //! Runs Mitsuba 3 through `benches/peers/path_tracing.py`.
 
 use super::curve::{Curve, Point};
-use qrt_core::front;
 use qrt_runtime::mitsuba;
+use qrt_scene::front;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -6,10 +6,10 @@
 use super::expected::{Expected, Verdicts};
 use super::problems::TOTAL;
 use super::runs::Run;
-use qrt::core::front;
-use qrt::core::scene::Estimator;
-use qrt::runtime::estimators::Problem;
+use qrt::counting::estimators::Problem;
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::front;
 use std::fmt::Write as _;
 use std::path::Path;
 

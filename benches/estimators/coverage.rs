@@ -2,8 +2,8 @@
 
 use super::expected::{Expected, Verdicts};
 use super::runs::Run;
-use qrt::core::scene::Estimator;
-use qrt::runtime::estimators::Problem;
+use qrt::counting::estimators::Problem;
+use qrt::scene::Estimator;
 use std::fmt::Write as _;
 
 /// Amplitudes that are hard for one estimator or another; `None` stands for amplitudes spread evenly.

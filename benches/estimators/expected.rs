@@ -2,7 +2,7 @@
 
 use super::problems::Problems;
 use super::runs::{Point, cost, slopes};
-use qrt::core::scene::Estimator;
+use qrt::scene::Estimator;
 use std::fmt;
 
 /// Expected figures of an estimator.

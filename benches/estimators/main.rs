@@ -31,7 +31,7 @@ mod strata;
 
 use expected::{Expected, Verdicts};
 use problems::Problems;
-use qrt::core::scene::Estimator;
+use qrt::scene::Estimator;
 use runs::{Point, Run};
 use std::fmt::Write as _;
 use std::process::ExitCode;

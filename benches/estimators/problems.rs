@@ -1,9 +1,9 @@
 //! The estimation problems: amplitudes spread evenly, or the pixels of a picture.
 
-use qrt::core::front;
-use qrt::core::scene::Estimator;
-use qrt::runtime::estimators::Problem;
+use qrt::counting::estimators::Problem;
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::front;
 use std::fmt;
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! Many runs of one estimator.
 
 use super::problems::Problems;
-use qrt::core::scene::{Counting, Estimator, Window};
+use qrt::counting::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt::counting::random::Stream;
 use qrt::drawing::Fit;
-use qrt::runtime::estimators::{Device, Noise, Problem, Settings, estimator};
-use qrt::runtime::random::Stream;
+use qrt::scene::{Counting, Estimator, Window};
 use std::fmt;
 use std::time::Instant;
 

@@ -4,10 +4,10 @@
 //! the queries for equal errors. The queries with which `auto` chooses the strata count, too.
 
 use super::expected::Verdicts;
-use qrt::core::scene::{Counting, Estimator};
-use qrt::runtime::counting::Octaves;
-use qrt::runtime::estimators::{Device, Noise, Settings, estimator};
-use qrt::runtime::random::Stream;
+use qrt::counting::Octaves;
+use qrt::counting::estimators::{Device, Noise, Settings, estimator};
+use qrt::counting::random::Stream;
+use qrt::scene::{Counting, Estimator};
 use std::fmt::Write as _;
 
 const COMPARATOR_BITS: u32 = 10;

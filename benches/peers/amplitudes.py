@@ -2,7 +2,7 @@
 """Writes what cirq makes of small circuits: tests hold qrt's machines against it.
 
     pip install -r requirements.txt
-    amplitudes.py > ../../qrt-runtime/src/machines/statevector/tests/cirq.txt
+    amplitudes.py > ../../qrt-machines/src/statevector/tests/cirq.txt
 
 Two circuits of random gates, gate by gate, and their amplitudes (bit q of an index is qubit q). Then
 counting, built from other parts than qrt's: the Grover iterate as a matrix, its controlled powers as

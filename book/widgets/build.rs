@@ -5,9 +5,9 @@
 
 use qrt_circuit::{Gate, Operand, Program, RegisterId, Type, lower};
 use qrt_core::compile::{Label, Role};
-use qrt_core::front;
 use qrt_core::oracle::{Options, Oracle};
-use qrt_core::scene::{Camera, Geometry, Material, Scene};
+use qrt_scene::front;
+use qrt_scene::{Camera, Geometry, Material, Scene};
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -236,7 +236,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "], geometry: QUADS.iter().map(|(vertices, material)| Geometry::Quad(\
-         qrt_core::scene::Quad {{ vertices: vertices.map(Into::into), material: \
+         qrt_scene::Quad {{ vertices: vertices.map(Into::into), material: \
          (*material).to_owned() }})).collect(),"
     )?;
     writeln!(

@@ -3,8 +3,8 @@
 use crate::errors;
 use pyo3::prelude::*;
 use qrt_circuit::quantum::Window;
-use qrt_runtime::estimators::{Device as RuntimeDevice, EstimatorError, Noise, Problem};
-use qrt_runtime::random::Stream;
+use qrt_counting::estimators::{Device as RuntimeDevice, EstimatorError, Noise, Problem};
+use qrt_counting::random::Stream;
 use std::sync::{Mutex, PoisonError};
 
 /// Runs Grover's iterate on an oracle's indices and measures.

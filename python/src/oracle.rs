@@ -13,11 +13,11 @@ use qrt_circuit::lower::Cost;
 use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, Part};
 use qrt_core::inspect::{CHANNELS, Inspection, OraclePixel};
 use qrt_core::oracle::{Oracle as PathOracle, OracleName, check_budget};
-use qrt_core::valid::ValidScene;
-use qrt_runtime::estimators::{Noise, NoiseError, Problem};
-use qrt_runtime::machines::{Defect, OracleMachine};
+use qrt_counting::estimators::{Noise, NoiseError, Problem};
 use qrt_runtime::memory::{CircuitWork, Memory};
+use qrt_runtime::path_machines::{Defect, OracleMachine};
 use qrt_runtime::physical::{PhysicalError, PictureCounts};
+use qrt_scene::valid::ValidScene;
 use std::sync::{Arc, OnceLock};
 
 /// Most paths whose thresholds are returned: 8 bytes each.

@@ -6,22 +6,22 @@ use crate::{errors, work};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use qrt_core::front::{self, Files, Loaded};
 use qrt_core::oracle::{self, Oracle as PathOracle};
-use qrt_core::scene::Estimator;
-use qrt_core::syntax::Report;
 use qrt_core::tracer::PixelClasses;
-use qrt_core::valid::ValidScene;
-use qrt_runtime::estimators::{Noise, NoiseError};
-use qrt_runtime::machines::{OracleMachine, Real};
+use qrt_counting::estimators::{Noise, NoiseError};
 use qrt_runtime::memory::Memory;
 use qrt_runtime::mitsuba;
+use qrt_runtime::path_machines::{OracleMachine, Real};
 use qrt_runtime::plan;
 use qrt_runtime::render::{
     Colour, DEFAULT_FAILURE, Model, Options, Portion, RenderError, Visibility, check_circuit,
     render, render_part,
 };
 use qrt_runtime::search::Guess;
+use qrt_scene::Estimator;
+use qrt_scene::front::{self, Files, Loaded};
+use qrt_scene::syntax::Report;
+use qrt_scene::valid::ValidScene;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -43,13 +43,13 @@ pub use predicate::{Marks, Predicate, PredicateError};
 use crate::compile::{
     BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName, Strategy,
 };
-use crate::sampling::{PathPoints, SamplingError};
-use crate::scene::ComparatorAt;
 use crate::tracer::{Arith, PixelClass, PixelClasses, Stage};
-use crate::valid::ValidScene;
 use qrt_circuit::{
     Bit, BlockId, Cores, Instruction, Op, Operand, Program, RegisterId, Word, lower,
 };
+use qrt_scene::ComparatorAt;
+use qrt_scene::sampling::{PathPoints, SamplingError};
+use qrt_scene::valid::ValidScene;
 use recording::{PrimaryHit, Recording};
 use std::fmt;
 

@@ -4,8 +4,8 @@ use crate::workers::{Progress, ThreadsError, Workers};
 use qrt_core::compile::Strategy;
 use qrt_core::oracle::{Layout, Layouts, OracleError};
 use qrt_core::tracer::PixelClass;
-use qrt_core::valid::ValidScene;
 use qrt_drawing::{Axis, Canvas, Drawn, Plot, Series};
+use qrt_scene::valid::ValidScene;
 use rayon::prelude::*;
 
 /// Reason for which there are no layouts.
@@ -77,7 +77,7 @@ pub fn drawing(front: &[Layout], scene: &str) -> Canvas {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::front::load;
+    use qrt_scene::front::load;
 
     #[test]
     fn the_front_of_a_room_goes_from_few_gates_to_few_qubits() {

@@ -1,20 +1,17 @@
 //! Machines, quantum counting and rendering.
 pub mod checkpoint;
-pub mod counting;
 pub mod disk;
 pub mod draw;
-pub mod estimators;
 pub mod image;
 pub mod layouts;
-pub mod machines;
 pub mod memory;
 pub mod mitsuba;
 mod named;
+pub mod path_machines;
 pub mod physical;
 pub mod plan;
 pub mod playground;
 pub mod predicates;
-pub mod random;
 pub mod render;
 pub mod replace_file;
 pub mod sample;

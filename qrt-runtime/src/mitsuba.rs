@@ -9,7 +9,7 @@
 //! <https://mitsuba.readthedocs.io/en/stable/src/generated/plugins_bsdfs.html> and the pages beside it.
 //!
 //! ```
-//! use qrt_core::front::parse;
+//! use qrt_scene::front::parse;
 //! use qrt_runtime::mitsuba::{Exported, export};
 //! let text = "
 //! name: sky
@@ -28,10 +28,10 @@
 //! ```
 
 use glam::DVec3;
-use qrt_core::scene::{Camera, Film, Rgb};
-use qrt_core::syntax::{Path, Problem, Renderer};
-use qrt_core::valid::{Polygon, Scatter, Surface, ValidScene};
 use qrt_drawing::escaped;
+use qrt_scene::syntax::{Path, Problem, Renderer};
+use qrt_scene::valid::{Polygon, Scatter, Surface, ValidScene};
+use qrt_scene::{Camera, Film, Rgb};
 use std::collections::HashMap;
 use std::fmt::{self, Write};
 

@@ -17,13 +17,13 @@
 //!   whose proven bound is black. The oracle of all pixels is the oracle of one class of pixels,
 //!   for example the most expensive.
 
-use crate::estimators::{EstimatorError, Settings};
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, PhaseOracle, QuantumError};
 use qrt_core::oracle::{Options, Oracle, OracleError};
-use qrt_core::scene::Estimator;
 use qrt_core::tracer::PixelClass;
-use qrt_core::valid::ValidScene;
+use qrt_counting::estimators::{EstimatorError, Settings};
+use qrt_scene::Estimator;
+use qrt_scene::valid::ValidScene;
 
 /// Reason for which a picture has no logical counts.
 #[derive(Debug, thiserror::Error)]

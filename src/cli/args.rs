@@ -6,10 +6,10 @@ use super::progress::Bar;
 use super::terminal;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use qrt_core::front::{self, Loaded};
-use qrt_core::scene::Film;
-use qrt_core::scene::meshes::MOST_FACES;
 use qrt_runtime::memory::Memory;
+use qrt_scene::Film;
+use qrt_scene::front::{self, Loaded};
+use qrt_scene::meshes::MOST_FACES;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 

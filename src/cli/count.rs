@@ -6,12 +6,12 @@ use std::io::{self, Write};
 use super::args::choice;
 use super::failure::Failure;
 use clap::Args;
-use qrt_core::scene::Window;
-use qrt_runtime::counting::{CountingError, MAX_REPETITIONS, PhaseDistribution, posterior};
-use qrt_runtime::estimators::{
+use qrt_counting::estimators::{
     DEFAULT_CONFIDENCE, Device, Estimate, EstimatorError, Noise, Problem, WindowedCounting,
 };
-use qrt_runtime::random::Stream;
+use qrt_counting::random::Stream;
+use qrt_counting::{CountingError, MAX_REPETITIONS, PhaseDistribution, posterior};
+use qrt_scene::Window;
 use serde_json::{Value, json};
 
 const WINDOWS: [(Window, &str); 2] = [

@@ -1,13 +1,13 @@
 //! Errors of a command.
 
-use qrt_core::syntax::Report;
-use qrt_runtime::counting::CountingError;
-use qrt_runtime::estimators::EstimatorError;
+use qrt_counting::CountingError;
+use qrt_counting::estimators::EstimatorError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::plan::PlanError;
 use qrt_runtime::render::{MergeError, RenderError};
 use qrt_runtime::trade::TradeError;
 use qrt_runtime::verify::VerifyError;
+use qrt_scene::syntax::Report;
 use std::path::Path;
 use std::process::ExitCode;
 use std::{fmt, io};

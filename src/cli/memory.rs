@@ -3,8 +3,8 @@
 
 use super::failure::Failure;
 use super::time;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::memory::{CircuitSize, CircuitWork, Memory, MemoryError};
+use qrt_scene::valid::ValidScene;
 
 /// Parses a size, for example `500M`, `1.5G` or `4GiB`: units are powers of 1,024.
 pub(crate) fn size(text: &str) -> Result<u64, String> {

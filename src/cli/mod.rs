@@ -31,7 +31,7 @@ mod watch;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
-use qrt_runtime::machines::InstructionSet;
+use qrt_machines::InstructionSet;
 use std::process::ExitCode;
 
 /// Quantum ray tracing: scenes as countable sets of paths

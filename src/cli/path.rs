@@ -1,8 +1,8 @@
 //! Describes a path in the words of a message.
 
-use qrt_core::valid::ValidScene;
 use qrt_runtime::predicates::trace_path_of;
 use qrt_runtime::render::Model;
+use qrt_scene::valid::ValidScene;
 
 /// Returns a line on the hits of a path's rays, by model, seed, pixel and index; empty if tracing fails.
 pub(super) fn in_words(

@@ -2,8 +2,8 @@
 
 use super::failure::Failure;
 use super::terminal;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::plan::{Figures, Options, Plan, plan};
+use qrt_scene::valid::ValidScene;
 use serde_json::{Value, json};
 
 /// Chooses the parameters of a scene that asks for an accuracy, and prints the plan on standard error

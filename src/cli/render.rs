@@ -9,11 +9,8 @@ use super::watch::watch;
 use super::{interrupt, memory, path, plan, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use qrt_core::front::Loaded;
-use qrt_core::scene::Estimator;
-use qrt_core::valid::ValidScene;
+use qrt_counting::estimators::{Noise, NoiseError};
 use qrt_runtime::checkpoint::Checkpoint;
-use qrt_runtime::estimators::{Noise, NoiseError};
 use qrt_runtime::image::{Encoding, Metadata};
 use qrt_runtime::render::{
     Colour, DEFAULT_FAILURE, Model, Options, PicturePart, Portion, RenderError, Visibility,
@@ -22,6 +19,9 @@ use qrt_runtime::render::{
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
+use qrt_scene::Estimator;
+use qrt_scene::front::Loaded;
+use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -427,9 +427,9 @@ fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failur
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::front::parse;
-    use qrt_core::scene::Accuracy;
     use qrt_runtime::plan::{ErrorParts, Figures, Plan};
+    use qrt_scene::Accuracy;
+    use qrt_scene::front::parse;
 
     /// A wall that fills the picture.
     const WALL: &str = "

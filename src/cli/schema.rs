@@ -17,5 +17,5 @@ Examples:
 pub(crate) struct SchemaArgs {}
 
 pub(crate) fn run() -> Result<(), Failure> {
-    terminal::print(&qrt_core::schema::text())
+    terminal::print(&qrt_scene::schema::text())
 }

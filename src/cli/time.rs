@@ -1,9 +1,9 @@
 //! Estimates the time of work before it begins, and prints it if it is long; the user may still have meant it.
 
 use super::terminal;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
+use qrt_scene::valid::ValidScene;
 
 /// Paths per second of a thread by `real`: a round figure, for an estimate of hours or days.
 const PATHS: f64 = 1e6;

@@ -5,7 +5,7 @@ use crate::common::scene::written;
 use qrt::circuit::export::Format;
 use qrt::circuit::{Contents, Gate, Op, Operand, RegisterId};
 use qrt::core::oracle::{BoundProgram, Options, Oracle};
-use qrt::runtime::machines::{OracleMachine, run};
+use qrt::runtime::path_machines::{OracleMachine, run_paths};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -62,11 +62,11 @@ fn they_compute_what_the_scene_does_in_their_pixel() {
             assert_eq!(counted(&gates, pixel), expected);
             let all = 0..bound.paths();
             assert_eq!(
-                run::paths_on_definition(&bound, all.clone()).unwrap(),
+                run_paths::on_definition(&bound, all.clone()).unwrap(),
                 expected
             );
-            assert_eq!(run::paths_on_fixed(&bound, all.clone()).unwrap(), expected);
-            assert_eq!(run::paths_on_gates(&bound, all).unwrap(), expected);
+            assert_eq!(run_paths::on_fixed(&bound, all.clone()).unwrap(), expected);
+            assert_eq!(run_paths::on_gates(&bound, all).unwrap(), expected);
         }
     }
     assert!(differ, "every path has the same colour");
@@ -152,7 +152,7 @@ fn their_texts_say_the_same() {
         let text = written_as_text(&bound);
         let about = format!("// pixel {}, {}; seed {SEED}\n", pixel[0], pixel[1]);
         assert!(text.contains(&about));
-        let expected = run::paths_on_fixed(&bound, 0..bound.paths()).unwrap();
+        let expected = run_paths::on_fixed(&bound, 0..bound.paths()).unwrap();
         for (path, expected) in (0..).zip(&expected).step_by(7) {
             let contents = followed(&text, path);
             let mut registers = vec![0; bound.registers.len()];

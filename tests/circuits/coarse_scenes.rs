@@ -7,12 +7,12 @@
 
 use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
-use qrt::core::front::parse;
-use qrt::core::valid::ValidScene;
 use qrt::prelude::*;
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
 use qrt::runtime::render::Visibility;
 use qrt::runtime::verify::{self, verify};
+use qrt::scene::front::parse;
+use qrt::scene::valid::ValidScene;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 

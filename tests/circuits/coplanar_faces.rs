@@ -2,9 +2,9 @@
 
 use crate::common::numbers::Numbers;
 use crate::common::scene::written;
-use qrt::core::valid::ValidScene;
 use qrt::prelude::*;
-use qrt::runtime::machines::{PixelSum, Real};
+use qrt::runtime::path_machines::{PixelSum, Real};
+use qrt::scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 /// A rectangle of cells on the plane z = `plane`.

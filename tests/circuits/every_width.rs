@@ -6,8 +6,9 @@ use crate::common::scene::{from_file, written};
 use proptest::prelude::*;
 use qrt::circuit::{Register, Type};
 use qrt::core::oracle::Oracle;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Extremes, OracleMachine, Real, contents};
+use qrt::machines::{Extremes, contents};
+use qrt::runtime::path_machines::{OracleMachine, Real};
+use qrt::scene::valid::ValidScene;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
@@ -277,7 +278,7 @@ fn any_scene() -> impl Strategy<Value = String> {
 /// Checks that all registers of a scene hold numbers of their ranges. A sliver, or a camera that looks
 /// along its own up vector, is not a valid scene and is skipped.
 fn scene_fits(text: &str) -> Result<(), TestCaseError> {
-    prop_assume!(qrt::core::front::parse(text, "any.yaml", &[], "".as_ref()).is_ok());
+    prop_assume!(qrt::scene::front::parse(text, "any.yaml", &[], "".as_ref()).is_ok());
     let fitting = fits(&oracle(&written(text, &[])), 2);
     fitting.map(|_| ()).map_err(TestCaseError::fail)
 }
@@ -318,7 +319,7 @@ proptest! {
 
     #[test]
     fn the_circuit_of_any_scene_computes_what_the_integers_do(text in any_scene()) {
-        let parsed = qrt::core::front::parse(&text, "any.yaml", &[], "".as_ref());
+        let parsed = qrt::scene::front::parse(&text, "any.yaml", &[], "".as_ref());
         prop_assume!(parsed.is_ok());
         let oracle = oracle(&written(&text, &[]));
         let pixels = film(&oracle);

@@ -5,7 +5,7 @@
 use super::paths::{Paths, film, oracle, paths};
 use crate::common::scene::from_file;
 use qrt::circuit::Gate;
-use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::path_machines::OracleMachine;
 
 /// A film of 8 x 8 pixels with 2^4 paths each.
 const FILM: [&str; 3] = ["film.width=8", "film.height=8", "sampling.path_bits=4"];

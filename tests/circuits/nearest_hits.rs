@@ -6,10 +6,10 @@ use crate::common::scene::{from_file, written};
 use qrt::circuit::lower;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::tracer::{PixelClass, Stage};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Answers, Asked, Candidate, NearestMachine};
-use qrt::runtime::random::Stream;
+use qrt::counting::random::Stream;
+use qrt::runtime::path_machines::{Answers, Asked, Candidate, NearestMachine};
 use qrt::runtime::search::marked_probability;
+use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
 
 const SEED: u64 = 11;

@@ -2,7 +2,7 @@
 
 use qrt::circuit::Qubit;
 use qrt::circuit::quantum::{QuantumGate, Turns};
-use qrt::runtime::machines::statevector::StateVector;
+use qrt::machines::statevector::StateVector;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;

@@ -4,8 +4,8 @@ pub(crate) mod simulator;
 
 use qrt::circuit::{Operand, Word};
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Defect, OracleMachine};
+use qrt::runtime::path_machines::{Defect, OracleMachine};
+use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
 
 /// A floor, a coloured wall and a lamp; 4 x 3 pixels of 2^5 paths of two rays. The scene is small enough

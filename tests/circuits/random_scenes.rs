@@ -2,8 +2,8 @@
 //! bit, and floating point differs only by the width of numbers.
 
 use crate::common::numbers::Numbers;
-use qrt::core::front::parse;
 use qrt::runtime::verify::{Options, verify};
+use qrt::scene::front::parse;
 use std::fmt::Write as _;
 
 /// Returns a scene that shows a few surfaces; coordinates are eighths, so that parallelograms are flat.

@@ -1,8 +1,8 @@
 //! Primary rays and their hits, computed independently: in scene units, by textbook geometry.
 
-use qrt::core::sampling::{Coordinate, PathPoints};
-use qrt::core::scene::Camera;
-use qrt::core::valid::ValidScene;
+use qrt::scene::Camera;
+use qrt::scene::sampling::{Coordinate, PathPoints};
+use qrt::scene::valid::ValidScene;
 
 type V = [f64; 3];
 

@@ -7,8 +7,8 @@ use crate::common::scene::{from_file, written};
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
 use qrt::core::oracle::{Layout, Layouts, Options, Oracle, call_cost};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::path_machines::OracleMachine;
+use qrt::scene::valid::ValidScene;
 use std::collections::HashSet;
 use std::sync::Arc;
 

@@ -10,11 +10,12 @@ use super::paths::{CORNER, film, inputs, number, oracle, paths, word};
 use crate::common::scene::written;
 use qrt::circuit::{Circuit, Gate, Op, Operand, Qubit, lower};
 use qrt::core::oracle::Oracle;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Defect, OracleCircuits, OracleMachine, contents};
-use qrt::runtime::random::Stream;
+use qrt::counting::random::Stream;
+use qrt::machines::contents;
+use qrt::runtime::path_machines::{Defect, OracleCircuits, OracleMachine};
 use qrt::runtime::render::Model;
 use qrt::runtime::verify::{Options, Report, verify, verify_parts};
+use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
 
 const SEED: u64 = 3;

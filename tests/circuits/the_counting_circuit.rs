@@ -6,13 +6,12 @@ use super::paths::{oracle, paths};
 use crate::common::scene::written;
 use qrt::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::scene::Window;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::counting::{PhaseDistribution, Stratum};
-use qrt::runtime::machines::OracleMachine;
-use qrt::runtime::machines::statevector::{
-    Checks, Sparse, StateVector, count, counting_of, fold, reduced, subspace,
-};
+use qrt::counting::amplitudes::{reduced, subspace};
+use qrt::counting::{PhaseDistribution, Stratum};
+use qrt::machines::statevector::{Checks, Sparse, StateVector, count, counting_of, fold};
+use qrt::runtime::path_machines::OracleMachine;
+use qrt::scene::Window;
+use qrt::scene::valid::ValidScene;
 
 /// A coloured wall, and a lamp behind the camera that lights it: 2 x 2 pixels of 2^4 paths of two
 /// rays.
@@ -82,8 +81,8 @@ fn is_the_distribution(sets: &[&str], phase_bits: u32) {
                     Window::Rect => (&apart[channel], 0),
                     Window::Sine => (&*together, channel),
                 };
-                let counted = counting_of(oracle, number, SEED, *pixel, phase_bits, window);
-                let counted = counted.unwrap();
+                let oracle = oracle.phase(number, SEED, *pixel).unwrap();
+                let counted = counting_of(&oracle, phase_bits, window).unwrap();
                 let exact = closed(good, total, phase_bits, window);
                 let others = [
                     exact.clone(),
@@ -237,6 +236,6 @@ fn may_be_written_without_many_controls() {
 #[test]
 fn has_no_fourth_channel() {
     let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
-    let refused = counting_of(&oracle, 1, SEED, [0, 0], 3, Window::Rect).unwrap_err();
+    let refused = oracle.phase(1, SEED, [0, 0]).unwrap_err();
     assert_eq!(refused.to_string(), "the oracle has no channel 1");
 }

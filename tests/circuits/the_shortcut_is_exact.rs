@@ -8,10 +8,11 @@ use super::paths::{CORNER, inputs, number, oracle, paths};
 use crate::common::scene::written;
 use qrt::circuit::lower;
 use qrt::core::oracle::Oracle;
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Gates, OracleMachine, Span, contents};
+use qrt::machines::{Gates, Span, contents};
+use qrt::runtime::path_machines::OracleMachine;
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::valid::ValidScene;
 
 const SEED: u64 = 11;
 
@@ -66,7 +67,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
                     "{id} {y} {count}"
                 );
                 // ... which is where the colour exceeds the threshold, (y + 1/2) / 2^c or y / 2^c.
-                let half = u64::from(at == qrt::core::scene::ComparatorAt::Midpoints);
+                let half = u64::from(at == qrt::scene::ComparatorAt::Midpoints);
                 let threshold = (2 * y + half) as f64 / (2 * comparators) as f64;
                 let exceeds = colour as f64 / (1_u64 << oracle.fraction) as f64 > threshold;
                 assert_eq!(turned, exceeds, "{id} {y} {colour}");

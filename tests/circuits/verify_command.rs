@@ -3,7 +3,7 @@
 use super::paths::{CORNER, film, oracle, paths};
 use crate::common::command::Folder;
 use crate::common::scene::written;
-use qrt::runtime::machines::{OracleMachine, Real};
+use qrt::runtime::path_machines::{OracleMachine, Real};
 use serde_json::{Value, json};
 
 fn folder() -> Folder {

@@ -4,10 +4,10 @@
 
 use crate::common::scene::written;
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::scene::Estimator;
-use qrt::core::syntax::Problem;
-use qrt::core::valid::ValidScene;
 use qrt::runtime::render::{self, Model};
+use qrt::scene::Estimator;
+use qrt::scene::syntax::Problem;
+use qrt::scene::valid::ValidScene;
 
 /// Returns a scene with the value `value` of a BSDF.
 fn text(value: &str) -> String {

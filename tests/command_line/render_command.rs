@@ -561,7 +561,7 @@ fn a_picture_goes_through_a_link_to_a_device() {
 /// The instruction set changes no byte of a picture, by any model.
 #[test]
 fn whatever_the_instruction_set_the_picture_is_the_same() {
-    use qrt::runtime::machines::InstructionSet;
+    use qrt::machines::InstructionSet;
 
     let folder = folder();
     for model in ["real", "fixed", "gates"] {

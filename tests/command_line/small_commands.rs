@@ -2,7 +2,7 @@
 
 use crate::common::command::Folder;
 use qrt::prelude::{Options, render};
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
 use qrt::runtime::sample::{prefix_means, radiance, spread};
 use qrt::runtime::workers::Workers;
 use std::fs;
@@ -86,7 +86,7 @@ fn a_new_scene_replaces_nothing_unless_told() {
 #[test]
 fn the_schema_is_the_scene_formats() {
     let text = Folder::new().works(&["schema"]);
-    assert_eq!(text, qrt::core::schema::text());
+    assert_eq!(text, qrt::scene::schema::text());
     let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(schema["properties"]["camera"].is_object());
 }

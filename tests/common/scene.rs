@@ -1,7 +1,7 @@
 //! Scenes from texts and from files.
 
-use qrt::core::front::{load_with, parse};
-use qrt::core::valid::ValidScene;
+use qrt::scene::front::{load_with, parse};
+use qrt::scene::valid::ValidScene;
 use std::path::{Path, PathBuf};
 
 fn owned(sets: &[&str]) -> Vec<String> {

@@ -6,9 +6,9 @@
     reason = "that is how `qrt!` warns of values that are not reciprocal"
 )]
 
-use qrt::core::expr::{Expr, Variable, Variables};
-use qrt::core::scene::Material;
 use qrt::prelude::*;
+use qrt::scene::Material;
+use qrt::scene::expr::{Expr, Variable, Variables};
 use std::path::Path;
 
 /// A product.

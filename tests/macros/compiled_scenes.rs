@@ -9,8 +9,9 @@
 use qrt::circuit::{Declaration, Type};
 use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Options as Compile, Oracle};
+use qrt::machines::InstructionSet;
 use qrt::prelude::*;
-use qrt::runtime::machines::{Finished, InstructionSet, OracleMachine};
+use qrt::runtime::path_machines::{Finished, OracleMachine};
 use qrt::runtime::render::{Colour, Visibility};
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Tests that a scene written with `qrt!` equals the scene in YAML: the same data, the same image bytes.
 
-use qrt::core::front::{load, parse};
 use qrt::prelude::*;
+use qrt::scene::front::{load, parse};
 use std::path::{Path, PathBuf};
 
 qrt! {

@@ -4,12 +4,12 @@
 use qrt::circuit::Op;
 use qrt::core::oracle::PredicateError;
 use qrt::core::oracle::paths::{PathFormats, PathNumber, RayNumber};
-use qrt::core::scene::Window;
+use qrt::counting::PhaseDistribution;
+use qrt::machines::statevector::counting_of;
 use qrt::prelude::*;
-use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::machines::statevector::counting_of;
 use qrt::runtime::predicates::{Counted, PredicateRefusal, TracedPath};
 use qrt::runtime::render::{Colour, Visibility};
+use qrt::scene::Window;
 
 qrt! {
     /// A red wall, a mirror, a floor and a lamp, from within; three rays.
@@ -357,7 +357,7 @@ fn a_predicates_oracle_is_counted_by_the_whole_circuit() {
             right(m, &path.ray0.origin.x, &path.ray0.found, good);
         });
         let good = counted.unwrap().pixels[0].good;
-        let simulated = counting_of(&oracle, 0, 1, pixel, 4, Window::Sine).unwrap();
+        let simulated = counting_of(&oracle.phase(0, 1, pixel).unwrap(), 4, Window::Sine).unwrap();
         assert_eq!(simulated.report.superposed, 3 + 4);
         assert!(simulated.report.checks > 0);
         let exact = PhaseDistribution::new(good, 8, 4, Window::Sine).unwrap();

@@ -1,14 +1,14 @@
 //! Tests that a requested accuracy is kept, at the least cost, or refused.
 
 use crate::common::scene::written;
-use qrt::core::scene::Estimator;
-use qrt::core::scene::meshes::Meshes;
-use qrt::core::valid::{ValidScene, validate};
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
 use qrt::runtime::plan::{Options, Plan, plan};
 use qrt::runtime::render::{self, Model, render};
 use qrt::runtime::sample::{prefix_means, radiance, spread};
 use qrt::runtime::workers::Workers;
+use qrt::scene::Estimator;
+use qrt::scene::meshes::Meshes;
+use qrt::scene::valid::{ValidScene, validate};
 use std::num::NonZeroUsize;
 use std::ops::Range;
 

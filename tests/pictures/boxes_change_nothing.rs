@@ -2,8 +2,8 @@
 
 use crate::common::scene::{from_file, written};
 use qrt::core::tracer::{NO_PLANE, Start};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Real, Simd, SingleRay};
+use qrt::runtime::path_machines::{Real, Simd, SingleRay};
+use qrt::scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 const KNOT: &str = "scenes-yaml/knot.yaml";

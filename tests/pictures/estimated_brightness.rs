@@ -1,8 +1,8 @@
 //! Tests that pictures counted with few queries have the right brightness.
 
-use qrt::core::front;
-use qrt::core::scene::Estimator;
 use qrt::prelude::*;
+use qrt::scene::Estimator;
+use qrt::scene::front;
 use std::path::Path;
 
 /// Width and height of the picture, whose mean has the standard error RMSE/SIDE.

@@ -3,9 +3,9 @@
 use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;
 use crate::common::scene::written;
-use qrt::core::front::parse;
 use qrt::prelude::*;
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
+use qrt::scene::front::parse;
 use std::fmt::Write as _;
 
 fn exact(model: Model) -> Options<'static> {

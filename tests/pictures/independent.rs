@@ -2,8 +2,8 @@
 //!
 //! The data and its conventions are described in `tests/references/README.md`.
 
-use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Real;
+use qrt_runtime::path_machines::Real;
+use qrt_scene::valid::ValidScene;
 use std::panic::resume_unwind;
 use std::path::PathBuf;
 
@@ -77,7 +77,7 @@ pub(crate) fn asking(depth: usize, path_bits: u32, lights: &str) -> Vec<String> 
 /// Loads the scene of a file of the reference data, with overrides.
 pub(crate) fn scene(name: &str, sets: &[String]) -> ValidScene {
     let path = file(&format!("{name}.yaml"));
-    match qrt_core::front::load(&path, sets) {
+    match qrt_scene::front::load(&path, sets) {
         Ok(loaded) => loaded.valid,
         Err(report) => panic!("{report}"),
     }

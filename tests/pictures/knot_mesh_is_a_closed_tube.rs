@@ -3,7 +3,7 @@
 #[path = "../../benches/common/knot.rs"]
 mod knot;
 
-use qrt::core::front::obj;
+use qrt::scene::front::obj;
 use std::collections::HashMap;
 use std::path::Path;
 

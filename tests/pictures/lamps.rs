@@ -2,13 +2,13 @@
 
 use super::independent::{mean, rms_difference, traced};
 use crate::common::scene::{from_file, written};
-use qrt::core::front::{Files, parse_with};
-use qrt::core::syntax::Problem;
 use qrt::core::tracer::{PixelClass, PixelClasses};
-use qrt::core::valid::ValidScene;
+use qrt::counting::random::Stream;
 use qrt::prelude::{Estimator, Model, Options, render};
-use qrt::runtime::machines::Real;
-use qrt::runtime::random::Stream;
+use qrt::runtime::path_machines::Real;
+use qrt::scene::front::{Files, parse_with};
+use qrt::scene::syntax::Problem;
+use qrt::scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 /// Returns a floor below a camera, the objects above it, and a material of the floor.

@@ -3,10 +3,10 @@
 
 use crate::common::scene::written;
 use qrt::core::oracle::{self, Oracle, luminance};
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::path_machines::OracleMachine;
 use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
+use qrt::scene::Estimator;
+use qrt::scene::valid::ValidScene;
 
 /// Two lamps of different colours above a reddish floor: the paths of one pixel differ in colour.
 const LAMPS: &str = "

@@ -2,8 +2,8 @@
 //! picture names it.
 
 use crate::common::scene::written;
+use qrt::counting::estimators::{Device, Estimate, EstimatorError, Settings, estimator};
 use qrt::prelude::*;
-use qrt::runtime::estimators::{Device, Estimate, EstimatorError, Settings, estimator};
 use qrt::runtime::render::{BoxedEstimator, Colour, Visibility};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

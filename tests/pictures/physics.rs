@@ -6,7 +6,7 @@
 
 use super::cube::{WALLS, corner};
 use crate::common::scene::{from_file, written};
-use qrt_runtime::machines::Real;
+use qrt_runtime::path_machines::Real;
 
 const RADIANCE: [f64; 3] = [1.0, 0.5, 0.25];
 const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];

@@ -6,7 +6,7 @@
 //! picture from the reference is about the root of the sum of both, and that of a wrong one is not.
 
 use super::independent::{self, Picture, Reference, SIDE, mean, rms_difference, traced};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 
 /// Factor by which the distance may exceed its expectation. It is a root mean square over 256 pixels with
 /// heavy tails, of which about a tenth varies by chance; 1.5 times the expectation is beyond chance.

@@ -2,7 +2,7 @@
 
 use crate::common::scene::written;
 use qrt::prelude::*;
-use qrt::runtime::machines::{Real, Simd};
+use qrt::runtime::path_machines::{Real, Simd};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

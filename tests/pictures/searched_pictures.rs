@@ -2,12 +2,12 @@
 //! wrong one if it does, and an error if there is nothing to search with.
 
 use crate::common::scene::{from_file, written};
-use qrt::core::front;
 use qrt::core::oracle::{MOST_FACES, NearestOracle};
-use qrt::core::scene::Estimator;
 use qrt::runtime::render::{Model, Options, RenderError, Rendered, Visibility, render};
 use qrt::runtime::search::Guess;
 use qrt::runtime::workers::Workers;
+use qrt::scene::Estimator;
+use qrt::scene::front;
 use std::fmt::Write;
 use std::num::NonZeroUsize;
 

@@ -1,9 +1,9 @@
 //! Tests of `counting.error`: a channel stops once its interval is narrow enough.
 
 use crate::common::scene::written;
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
 use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
+use qrt::scene::Estimator;
+use qrt::scene::valid::ValidScene;
 
 /// A grey floor under a lamp whose blue, and with it the scale of blue, is a twentieth of its red.
 const FLOOR: &str = "

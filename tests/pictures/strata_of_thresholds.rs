@@ -1,11 +1,11 @@
 //! Tests of strata of the comparator: their effect on pictures, and what they leave unchanged.
 
 use crate::common::scene::written;
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
-use qrt::runtime::estimators::EstimatorError;
+use qrt::counting::estimators::EstimatorError;
 use qrt::runtime::render::{Colour, Model, Options, RenderError, Rendered, render};
 use qrt::runtime::workers::Workers;
+use qrt::scene::Estimator;
+use qrt::scene::valid::ValidScene;
 use std::num::NonZero;
 
 /// A dim wall in front of the camera, which reflects a little of a bright lamp behind it: colours are small

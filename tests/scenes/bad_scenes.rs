@@ -7,8 +7,8 @@
 
 #![allow(clippy::format_push_string)]
 
-use qrt::core::front;
-use qrt::core::syntax::codes;
+use qrt::scene::front;
+use qrt::scene::syntax::codes;
 use std::path::{Path, PathBuf};
 
 const FOLDER: &str = "tests/bad_scenes";

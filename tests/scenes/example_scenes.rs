@@ -1,9 +1,9 @@
 //! Tests that the example scenes are valid, and that their comments are true.
 
-use qrt_core::front::load;
-use qrt_core::syntax::{Problem, Report};
-use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Real;
+use qrt_runtime::path_machines::Real;
+use qrt_scene::front::load;
+use qrt_scene::syntax::{Problem, Report};
+use qrt_scene::valid::ValidScene;
 use std::path::PathBuf;
 
 fn folder() -> PathBuf {

@@ -6,9 +6,9 @@
 use super::cases;
 use crate::common::scene::from_file;
 use proptest::prelude::*;
-use qrt::core::front;
-use qrt::core::scene::{Camera, Estimator, Lights, Scene, Sequence};
-use qrt::core::valid::ValidScene;
+use qrt::scene::front;
+use qrt::scene::valid::ValidScene;
+use qrt::scene::{Camera, Estimator, Lights, Scene, Sequence};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -241,7 +241,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
                 camera.eye = point.into();
             }
             for (_, material) in &mut scene.materials {
-                if let qrt::core::scene::Material::Bsdf(bsdf) = material {
+                if let qrt::scene::Material::Bsdf(bsdf) = material {
                     bsdf.value[0].clone_from(&expression);
                 }
             }

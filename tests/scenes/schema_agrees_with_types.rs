@@ -5,9 +5,9 @@
 
 #![allow(clippy::format_push_string)]
 
-use qrt::core::scene::Scene;
-use qrt::core::syntax::codes;
-use qrt::core::{front, schema};
+use qrt::scene::Scene;
+use qrt::scene::syntax::codes;
+use qrt::scene::{front, schema};
 use serde_json::{Value, json};
 use std::path::Path;
 

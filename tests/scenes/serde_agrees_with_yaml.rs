@@ -2,7 +2,7 @@
 //! that errors have their code and their path.
 
 use crate::common::scene::from_file;
-use qrt::core::scene::{
+use qrt::scene::{
     Camera, Counting, DepthSampling, Estimator, Film, Geometry, Jacobian, Lambertian, Material,
     Scene,
 };

@@ -5,9 +5,9 @@
 
 use super::cases;
 use proptest::prelude::*;
-use qrt::core::front::yaml;
-use qrt::core::syntax::tree::{Kind, Node, Value};
-use qrt::core::syntax::{Problems, Report, Source};
+use qrt::scene::front::yaml;
+use qrt::scene::syntax::tree::{Kind, Node, Value};
+use qrt::scene::syntax::{Problems, Report, Source};
 use serde_yaml::Value as Other;
 
 fn read(text: &str) -> Option<Node> {

@@ -11,7 +11,7 @@ use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::rt_triangle::RtTriangle;
 use qrt::core::tracer::{Geometry, NO_FACE};
-use qrt::runtime::machines::SingleRay;
+use qrt::runtime::path_machines::SingleRay;
 use std::time::Duration;
 
 /// A triangle of the scene; a quad's two halves share its label.

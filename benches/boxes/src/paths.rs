@@ -1,11 +1,11 @@
 //! Rays of a scene's paths, one path at a time, in plain numbers.
 
-use qrt::core::expr::Function;
-use qrt::core::sampling::{PathPoints, cell_centre};
+use qrt::scene::expr::Function;
+use qrt::scene::sampling::{PathPoints, cell_centre};
 use qrt::core::tracer::trace;
 use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, Nearest, Ray, Sampled, Start};
-use qrt::core::valid::ValidScene;
-use qrt::runtime::machines::{Real, SingleRay};
+use qrt::scene::valid::ValidScene;
+use qrt::runtime::path_machines::{Real, SingleRay};
 use std::cell::RefCell;
 
 /// Rays in the order of the paths.

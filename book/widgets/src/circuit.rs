@@ -5,7 +5,7 @@
 //! registers of one basis state, and the signs of all of them.
 
 use qrt_circuit::{Circuit, Gate, Qubit};
-use qrt_runtime::machines::{Gates, InvalidGate, Rows};
+use qrt_machines::{Gates, InvalidGate, Rows};
 use qrt_runtime::playground::Answer;
 use std::fmt::Write;
 
@@ -259,8 +259,8 @@ fn unsigned(bits: &str) -> u64 {
 mod tests {
     use super::*;
     use qrt_circuit::{Contents, Operand, Type};
-    use qrt_core::front;
     use qrt_core::oracle::{Options, Oracle};
+    use qrt_scene::front;
 
     fn oracle() -> Oracle {
         let scene = front::parse(SCENE, "lamp.yaml", &[], "".as_ref()).unwrap();

@@ -2,13 +2,13 @@
 //!
 //! Its numbers are those of `qrt count` with `--total 4096`.
 
-use qrt_core::scene::Window;
-use qrt_runtime::counting::{PhaseDistribution, posterior};
-use qrt_runtime::estimators::{
+use qrt_counting::estimators::{
     DEFAULT_CONFIDENCE, Device, EstimatorError, Noise, Problem, WindowedCounting,
 };
+use qrt_counting::random::Stream;
+use qrt_counting::{PhaseDistribution, posterior};
 use qrt_runtime::playground::Answer;
-use qrt_runtime::random::Stream;
+use qrt_scene::Window;
 
 /// N, the number of ids.
 pub const IDS: u64 = 4096;

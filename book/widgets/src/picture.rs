@@ -4,23 +4,23 @@
 //! with the same overrides and the same estimator at seed 0: here a seed draws outcomes, but does not
 //! change the paths. The page traces and counts a few pixels at a time, so that it stays responsive.
 
-use qrt_core::scene::meshes::Meshes;
-use qrt_core::scene::{Counting, Estimator};
-use qrt_core::valid::validate;
-use qrt_runtime::counting::Comparators;
-use qrt_runtime::estimators::{
+use qrt_counting::Comparators;
+use qrt_counting::estimators::{
     AdaptiveBayes, AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
     WindowedCounting,
 };
-use qrt_runtime::machines::Real;
+use qrt_counting::random::Stream;
+use qrt_runtime::path_machines::Real;
 use qrt_runtime::playground::Answer;
-use qrt_runtime::random::Stream;
+use qrt_scene::meshes::Meshes;
+use qrt_scene::valid::validate;
+use qrt_scene::{Counting, Estimator};
 use std::error::Error;
 use std::ops::Range;
 
 /// The scene: see `build.rs`.
 mod made {
-    use qrt_core::scene::{
+    use qrt_scene::{
         Camera, Circuit, Comparator, ComparatorAt, Counting, DepthSampling, Emitter, Estimator,
         Film, Geometry, Lambertian, Lights, Map, Material, Nearest, Perspective, Precision,
         Sampling, Scene, Sequence, Uncompute, Window,
@@ -315,15 +315,15 @@ mod tests {
     /// Compares the scene with the front end's, and the estimates with those of `qrt render`.
     #[test]
     fn it_is_the_scene_of_the_repository() {
-        use qrt_core::scene::Estimator;
         use qrt_runtime::render::{Options, render};
+        use qrt_scene::Estimator;
         let path = "../../scenes-yaml/cornell-box.yaml".as_ref();
         let mut sets = made::SMALLER.map(str::to_owned).to_vec();
-        let scene = qrt_core::front::load(path, &sets).unwrap().valid;
+        let scene = qrt_scene::front::load(path, &sets).unwrap().valid;
         assert_eq!(*scene.scene(), made::scene());
         let mut picture = picture(1000);
         sets.push("counting.phase_bits=7".to_owned());
-        let scene = qrt_core::front::load(path, &sets).unwrap().valid;
+        let scene = qrt_scene::front::load(path, &sets).unwrap().valid;
         for name in ESTIMATORS {
             let rendered = render(
                 &scene,

@@ -7,7 +7,7 @@ use super::{Body, Figure, scene};
 use qrt::core::inspect::{Frame, Inspection, Part, grouped};
 use qrt::core::oracle::{Options, Oracle};
 use qrt::drawing::{Canvas, minus};
-use qrt::runtime::machines::OracleMachine;
+use qrt::runtime::path_machines::OracleMachine;
 use std::fmt::Write as _;
 use std::sync::Arc;
 

@@ -8,11 +8,11 @@ use qrt::circuit::lower;
 use qrt::core::compile::Role;
 use qrt::core::inspect::{Inspection, Part, grouped};
 use qrt::core::oracle::{Options, Oracle};
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
 use qrt::drawing::{Axis, Canvas, Drawn, Plot, Series};
 use qrt::runtime::draw;
 use qrt::runtime::render::{self, Model, Rendered};
+use qrt::scene::Estimator;
+use qrt::scene::valid::ValidScene;
 
 /// A lamp in front of a wall: a circuit small enough to be seen whole.
 const WALL: &str = include_str!("../../lit-wall.yaml");

@@ -1,9 +1,9 @@
 //! Quantization of a colour by comparators.
 
 use super::Figure;
-use qrt::core::scene::{Comparator, ComparatorAt};
+use qrt::counting::Comparators;
 use qrt::drawing::{Canvas, Panel, minus, number, polyline, ticks};
-use qrt::runtime::counting::Comparators;
+use qrt::scene::{Comparator, ComparatorAt};
 
 /// c, for C = 8 comparators.
 const BITS: u32 = 3;

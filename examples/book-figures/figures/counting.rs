@@ -1,10 +1,10 @@
 //! Measurements of counting, and the inference from them.
 
 use super::Figure;
-use qrt::core::scene::Window;
+use qrt::counting::random::Stream;
+use qrt::counting::{PhaseDistribution, posterior};
 use qrt::drawing::{Canvas, Panel, number, ticks};
-use qrt::runtime::counting::{PhaseDistribution, posterior};
-use qrt::runtime::random::Stream;
+use qrt::scene::Window;
 use std::f64::consts::PI;
 
 /// theta = 1/3: three of four indices are good.

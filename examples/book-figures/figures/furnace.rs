@@ -1,10 +1,10 @@
 //! The furnace: pictures at every depth, and the values by the formula.
 
 use super::{Figure, root};
-use qrt::core::front;
-use qrt::core::scene::Estimator;
 use qrt::drawing::{Canvas, Panel, ticks};
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::front;
 
 /// Emission and albedo of the furnace.
 const EMITTED: [f64; 3] = [0.15, 0.2, 0.15];

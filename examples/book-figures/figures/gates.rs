@@ -3,8 +3,8 @@
 use super::Figure;
 use qrt::circuit::quantum::QuantumGate::{self, Ccx, Cx, H, Phase, X};
 use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, Turns, Window};
+use qrt::machines::statevector::{Dense, StateVector, StateVectorError};
 use qrt::runtime::draw::Wires;
-use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError};
 
 /// Returns the real amplitudes of a register after `gates`.
 fn amplitudes(qubits: u32, gates: &[QuantumGate<'_>]) -> Result<Vec<f64>, StateVectorError> {

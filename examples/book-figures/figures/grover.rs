@@ -2,9 +2,9 @@
 
 use super::Figure;
 use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate};
-use qrt::core::scene::Window;
 use qrt::drawing::{Canvas, Panel, number, polyline, ticks};
-use qrt::runtime::machines::statevector::{Dense, StateVector, StateVectorError, fold};
+use qrt::machines::statevector::{Dense, StateVector, StateVectorError, fold};
+use qrt::scene::Window;
 use std::f64::consts::PI;
 
 /// Returns an oracle of `2^bits` indices, the first `good` of them good.

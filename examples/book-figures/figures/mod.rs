@@ -15,10 +15,10 @@ mod pixel;
 mod plates;
 mod points;
 
-use qrt::core::front;
-use qrt::core::valid::ValidScene;
 use qrt::drawing::Canvas;
 use qrt::runtime::image::{Encoding, Image, Metadata, save};
+use qrt::scene::front;
+use qrt::scene::valid::ValidScene;
 use std::path::{Path, PathBuf};
 
 /// A finished figure.

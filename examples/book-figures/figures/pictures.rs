@@ -1,14 +1,14 @@
 //! Pictures, enlarged so that their pixels are visible.
 
 use super::{Body, Figure, cornell, root, scene};
-use qrt::core::front;
-use qrt::core::scene::Estimator;
-use qrt::core::valid::ValidScene;
 use qrt::runtime::image::Image;
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
 use qrt::runtime::render::{Model, Options, render};
 use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
+use qrt::scene::Estimator;
+use qrt::scene::front;
+use qrt::scene::valid::ValidScene;
 use std::f64::consts::{PI, TAU};
 
 /// Width of the gap between pictures of a strip, in their pixels.

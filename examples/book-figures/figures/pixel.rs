@@ -6,8 +6,8 @@ mod program;
 
 use super::Figure;
 use qrt::circuit::quantum::Window;
+use qrt::counting::PhaseDistribution;
 use qrt::drawing::{Canvas, Panel, minus, ticks};
-use qrt::runtime::counting::PhaseDistribution;
 use qrt::runtime::draw::Wires;
 use std::f64::consts::PI;
 

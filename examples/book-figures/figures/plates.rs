@@ -7,11 +7,11 @@
 //! lead beyond c, each of them one integral.
 
 use super::{Figure, scene, style};
-use qrt::core::valid::ValidScene;
 use qrt::drawing::{Axis, Drawn, Plot, Series};
-use qrt::runtime::machines::Real;
+use qrt::runtime::path_machines::Real;
 use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
+use qrt::scene::valid::ValidScene;
 use std::f64::consts::PI;
 
 const RHO: f64 = 0.8;

@@ -1,11 +1,11 @@
 //! Sample points of paths, in the square and on the hemisphere.
 
 use super::{Figure, style};
-use qrt::core::expr::Variables;
-use qrt::core::sampling::{Coordinate, PathPoints, cell_centre, maps};
-use qrt::core::scene::{DepthSampling, Map, Sampling, Sequence};
+use qrt::counting::random::Stream;
 use qrt::drawing::{Canvas, polyline};
-use qrt::runtime::random::Stream;
+use qrt::scene::expr::Variables;
+use qrt::scene::sampling::{Coordinate, PathPoints, cell_centre, maps};
+use qrt::scene::{DepthSampling, Map, Sampling, Sequence};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 

@@ -3,9 +3,9 @@
 use super::names::Nameable;
 use super::value::{Affine, Bool, Index, Real, Value, bits_of};
 use super::{BuildError, Builder, MAX_ADDRESS, StageName, negative_range};
-use crate::expr::Function;
 use crate::tracer::{Arith, Coordinate, Named, Part, Sampled, Segment};
 use qrt_circuit::{Op, Operand, Word};
+use qrt_scene::expr::Function;
 
 impl Arith for Builder<'_> {
     type Real = Real;

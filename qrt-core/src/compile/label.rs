@@ -1,7 +1,7 @@
 //! Roles of registers, labels of blocks, and the words of a pixel.
 
-use crate::sampling::{Coordinate, PathPoints, Square};
 use qrt_circuit::{Block, Register, Tag, Type};
+use qrt_scene::sampling::{Coordinate, PathPoints, Square};
 use std::fmt;
 
 /// The purpose of a register.

@@ -47,13 +47,13 @@ pub(crate) use passes::{Known, assemble, locked};
 pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{Bool, Index, Real};
 
-use crate::sampling::PathPoints;
-use crate::syntax::{Circuit, What};
 use crate::tracer::{Coordinate, Named, Segment, WideValue};
 use names::Nameable;
 use passes::Draft;
 use qrt_circuit::lower::Quick;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
+use qrt_scene::sampling::PathPoints;
+use qrt_scene::syntax::{Circuit, What};
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;

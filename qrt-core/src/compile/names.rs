@@ -2,9 +2,9 @@
 
 use super::value::{Bool, Index, Real};
 use super::{Affine, Builder};
-use crate::sampling::Square;
 use crate::tracer::{Named, Quantity};
 use qrt_circuit::{Bit, RegisterId, Word};
+use qrt_scene::sampling::Square;
 use std::fmt;
 
 /// A value that the tracer has a name for.

@@ -6,8 +6,8 @@
 //! cost again (Bennett 1989).
 
 use super::StageName;
-use crate::scene::{Again, PARTS, Uncompute};
 use qrt_circuit::Style;
+use qrt_scene::{Again, PARTS, Uncompute};
 
 /// Parts of the tracer whose work can be undone at their ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -15,12 +15,12 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
-pub use crate::syntax::grouped;
 pub use blocks::BlockFigures;
 pub use frame::{Frame, FrameBox, Wire};
 pub use layout::{Layout, Lifetime};
 pub use passes::{PassFigures, pass_figures};
 pub use pixel::OraclePixel;
+pub use qrt_scene::syntax::grouped;
 pub use stages::{Part, Stage};
 
 use crate::compile::{Role, Strategy};
@@ -28,9 +28,9 @@ use crate::oracle::{
     CallCost, Options, Oracle, OracleCost, OracleError, OracleName, PARTS_OF_A_CALL, oracle_costs,
 };
 use crate::tracer::PixelClasses;
-use crate::valid::ValidScene;
 use qrt_circuit::Program;
 use qrt_circuit::lower::{self, Cost};
+use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
 use std::ops::Range;
 

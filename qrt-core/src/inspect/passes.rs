@@ -3,8 +3,8 @@
 use super::Inspection;
 use crate::compile::Passes;
 use crate::oracle::{Options, Oracle, OracleError};
-use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
+use qrt_scene::valid::ValidScene;
 
 /// The cost of a call of the oracle after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Figures of a small scene's oracle.
 
 use super::*;
-use crate::front::parse;
 use qrt_circuit::lower::depth;
+use qrt_scene::front::parse;
 
 /// A lamp over a floor, with two rays per path.
 const SCENE: &str = "

@@ -10,11 +10,11 @@ use std::ops::Deref;
 /// parameters, from a path index to the path's colours, with the data of its registers.
 ///
 /// It derefs to the program: [`Program::inverse`], [`Program::circuit`], the operations and the
-/// instructions are available. `machines::run` of the runtime runs it, for example with
-/// `run::paths_on_fixed`.
+/// instructions are available. `path_machines::run_paths` of the runtime runs its paths, for example
+/// with `run_paths::on_fixed`.
 ///
 /// ```
-/// use qrt_core::front::parse;
+/// use qrt_scene::front::parse;
 /// use qrt_core::oracle::{Options, Oracle};
 /// use qrt_circuit::Contents;
 /// use qrt_circuit::export::Format;

@@ -2,10 +2,10 @@
 
 use super::{MOST_FACES, Oracle, OracleCost, OracleError};
 use crate::compile::{self, BuildError};
-use crate::scene::{Nearest, Uncompute};
-use crate::syntax::{Circuit, Path, Problem, Problems};
-use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Figures};
+use qrt_scene::syntax::{Circuit, Path, Problem, Problems};
+use qrt_scene::valid::ValidScene;
+use qrt_scene::{Nearest, Uncompute};
 
 /// Costs of one call of an oracle: compute, compare and flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +79,7 @@ fn toffoli(oracle: &Oracle, figures: &[Figures]) -> u64 {
 
 /// Reports the limits of the scene's `budget` that `costs` exceed, each with advice. `costs` are those
 /// of [`oracle_costs`](super::oracle_costs), or of the oracles that are run. Each limit holds for every
-/// oracle. [`crate::front::Loaded::report`] shows the problems in the scene.
+/// oracle. [`qrt_scene::front::Loaded::report`] shows the problems in the scene.
 ///
 /// # Errors
 /// At least one limit is exceeded.
@@ -116,7 +116,7 @@ pub fn check_budget(scene: &ValidScene, costs: &[OracleCost]) -> Result<(), Vec<
 }
 
 impl OracleError {
-    /// Converts this error to a problem of the scene, for [`crate::front::Loaded::report`].
+    /// Converts this error to a problem of the scene, for [`qrt_scene::front::Loaded::report`].
     pub fn problem(&self) -> Problem {
         let root = Path::root();
         match self {
@@ -148,12 +148,12 @@ impl OracleError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front::{Loaded, parse};
     use crate::oracle::{
         Options, Oracle, OracleName, oracle_costs, oracle_costs_knowing, oracle_costs_of_class,
     };
-    use crate::syntax::codes;
     use crate::tracer::PixelClass;
+    use qrt_scene::front::{Loaded, parse};
+    use qrt_scene::syntax::codes;
 
     fn loaded(more: &str) -> Loaded {
         let text = format!(

@@ -2,13 +2,13 @@
 
 use super::{Channel, Oracle};
 use crate::compile::{NamedPlace, PixelWord};
-use crate::sampling::{PathPoints, SamplingError};
-use crate::valid::ValidScene;
 use qrt_circuit::format::{Format, Reg};
 use qrt_circuit::{
     Block, BlockId, Declaration, Machine, Op, Operand, Program, Recorded, Recorder, RegisterId,
     Style, Tag, Type, Word,
 };
+use qrt_scene::sampling::{PathPoints, SamplingError};
+use qrt_scene::valid::ValidScene;
 use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;

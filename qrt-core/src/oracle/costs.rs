@@ -12,8 +12,8 @@ use super::recording::{CHANNELS, PrimaryHit, Recording};
 use super::{CallCost, Options, Oracle, OracleError, budget};
 use crate::compile::{self, Strategy};
 use crate::tracer::{PixelClass, PixelClasses};
-use crate::valid::ValidScene;
 use qrt_circuit::Cores;
+use qrt_scene::valid::ValidScene;
 use std::fmt;
 
 /// The parts of one call of an oracle, in words.
@@ -125,7 +125,7 @@ pub fn oracle_names(scene: &ValidScene) -> Vec<OracleName> {
 /// As [`Oracle::new`](super::Oracle::new).
 ///
 /// ```
-/// use qrt_core::front::parse;
+/// use qrt_scene::front::parse;
 /// use qrt_core::inspect::Inspection;
 /// use qrt_core::oracle::{OracleCost, oracle_costs};
 ///

@@ -4,9 +4,9 @@ use super::recording::{PrimaryHit, Recording};
 use super::{CallCost, Options, Oracle, OracleError, OracleName, budget, costs};
 use crate::compile::Strategy;
 use crate::tracer::PixelClass;
-use crate::valid::ValidScene;
 use qrt_circuit::Cores;
 use qrt_circuit::lower::{self, Figures};
+use qrt_scene::valid::ValidScene;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -241,12 +241,12 @@ pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
         return Ok(strategy);
     }
     let all = Strategy::all();
-    if let Some(&number) = scene.auto.get() {
+    if let Some(&number) = scene.strategy_cache().get() {
         return Ok(all[number]);
     }
     let strategy = auto(scene)?;
     if let Some(number) = all.iter().position(|one| *one == strategy) {
-        let _ = scene.auto.set(number);
+        let _ = scene.strategy_cache().set(number);
     }
     Ok(strategy)
 }

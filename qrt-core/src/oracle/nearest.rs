@@ -4,11 +4,11 @@
 use super::recording::target;
 use super::{Options, OracleError, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
-use crate::sampling::PathPoints;
 use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
-use crate::valid::ValidScene;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
+use qrt_scene::sampling::PathPoints;
+use qrt_scene::valid::ValidScene;
 use std::sync::Mutex;
 
 /// Most faces of a table whose address is a face's number: one number of 16 bits stands for none.

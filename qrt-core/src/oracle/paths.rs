@@ -22,10 +22,10 @@
 
 use super::DEFAULT_FRACTION;
 use crate::tracer::{PixelClass, Stage};
-use crate::valid::ValidScene;
 use glam::DVec3;
 use qrt_circuit::format::{Bool, Format, Reg};
 use qrt_circuit::{Recorded, Recorder, RegisterId, Type};
+use qrt_scene::valid::ValidScene;
 use std::fmt;
 
 /// Most bits of a register of a path.

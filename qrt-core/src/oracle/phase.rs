@@ -51,9 +51,9 @@ impl Oracle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front::parse;
     use crate::oracle::Options;
     use qrt_circuit::quantum::QuantumGate;
+    use qrt_scene::front::parse;
 
     #[test]
     fn gates_that_are_not_held_are_those_that_are() {

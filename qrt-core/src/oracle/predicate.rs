@@ -20,13 +20,13 @@ mod traced;
 use super::paths::{PathFormats, PathInputs, PathNumber, PathScene};
 use super::{Channel, Options, Oracle, OracleError, PREDICATE_CHANNEL};
 use crate::compile::{Label, StageName};
-use crate::valid::ValidScene;
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{
     Bit, BlockId, Instruction, Op, Operand, Program, Recorded, Recorder, Register, RegisterId,
     Style, Type, Word,
 };
+use qrt_scene::valid::ValidScene;
 use std::collections::HashMap;
 use traced::traced;
 

@@ -6,13 +6,13 @@ use super::{
     luminance, register_of,
 };
 use crate::compile::{self, Builder, NamedPlace, Passes, Real, Recorded, Role, Strategy, Target};
-use crate::sampling::PathPoints;
-use crate::scene::Nearest;
 use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
-use crate::valid::ValidScene;
 use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
+use qrt_scene::Nearest;
+use qrt_scene::sampling::PathPoints;
+use qrt_scene::valid::ValidScene;
 use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard};
 

@@ -1,8 +1,8 @@
 //! The arithmetic that the tracer computes with.
 
 use super::{Sampled, Segment};
-use crate::expr::Function;
-pub use crate::sampling::{Axis, Coordinate};
+use qrt_scene::expr::Function;
+pub use qrt_scene::sampling::{Axis, Coordinate};
 
 /// A stage of the tracer, as in the paper's figure, or a part of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

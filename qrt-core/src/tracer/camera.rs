@@ -3,8 +3,8 @@
 use super::geometry::{Geometry, NO_PLANE};
 use super::ray::{Ray, Start};
 use super::{Arith, Coordinate, vector};
-use crate::scene::{Basis, Camera, Film};
 use glam::{DVec2, DVec3};
+use qrt_scene::{Basis, Camera, Film};
 
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@
 
 use super::sampled::TABLE_BITS;
 use super::{Arith, Axis, Coordinate, Sampled};
-use crate::expr::{Domain, Expr, Id, Interval, Node, Variable, VariableSet, Variables};
-use crate::sampling::cell_centre;
+use qrt_scene::expr::{Domain, Expr, Id, Interval, Node, Variable, VariableSet, Variables};
+use qrt_scene::sampling::cell_centre;
 use std::collections::HashMap;
 
 /// One step of a compiled expression.

@@ -10,8 +10,8 @@
 
 use super::geometry::{Geometry, Plane};
 use super::polygon::plane_of;
-use crate::polygons::{Outlines, SAME_PLANE};
 use glam::DVec3;
+use qrt_scene::polygons::{Outlines, SAME_PLANE};
 use std::collections::HashMap;
 
 /// Most comparisons of a corner with a plane. Beyond this, no more bodies are searched.

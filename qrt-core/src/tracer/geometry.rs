@@ -6,9 +6,9 @@
 //! origin.
 
 use super::polygon::{edge_tests, frame, plane_of};
-use crate::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
-use crate::valid::Polygon;
 use glam::DVec3;
+use qrt_scene::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
+use qrt_scene::valid::Polygon;
 use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;

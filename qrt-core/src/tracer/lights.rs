@@ -28,10 +28,10 @@ use super::places::Places;
 use super::ray::{Nearest, Ray, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled, Work};
-use crate::lights::{self, Lamp, Reached};
-use crate::scene::Lights;
-use crate::valid::Surface;
-use crate::valid::lights::MOST_PAIRS;
+use qrt_scene::Lights;
+use qrt_scene::lights::{self, Lamp, Reached};
+use qrt_scene::valid::Surface;
+use qrt_scene::valid::lights::MOST_PAIRS;
 use std::f64::consts::FRAC_1_PI;
 
 /// The distance in stage units below which `r^4` has too few bits. If a lamp can be nearer, cosines

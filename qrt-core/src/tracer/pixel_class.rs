@@ -4,8 +4,8 @@
 //! meets a lamp first, the colour scale need not include the lamp's radiance.
 
 use super::camera;
-use crate::valid::ValidScene;
 use glam::DVec2;
+use qrt_scene::valid::ValidScene;
 
 /// The margin outside a pixel's square that its rays are assumed to reach, in pixels: far above
 /// rounding.

@@ -10,8 +10,8 @@
 //! the tolerance of their edges, may carry more than the bound: machines then end with an error.
 
 use super::geometry::Geometry;
-use crate::lights::strongest_form;
 use glam::DVec3;
+use qrt_scene::lights::strongest_form;
 
 /// Most faces whose sides are distinguished.
 const MOST_FACES: usize = 512;

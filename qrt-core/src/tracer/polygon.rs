@@ -1,8 +1,8 @@
 //! One polygon prepared for intersection: its plane, its shading frame and its edges as half-plane tests.
 
 use super::geometry::{EdgeTest, Frame, Plane};
-use crate::polygons::main_axis;
 use glam::{DVec2, DVec3};
+use qrt_scene::polygons::main_axis;
 
 pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
     let axis = main_axis(frame.normal);

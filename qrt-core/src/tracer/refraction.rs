@@ -2,19 +2,19 @@
 //!
 //! A refraction scales radiance by the squared ratio of the indices: by `1 / ior^2` against the normal of a
 //! face, by `ior^2` along it. Around a closed surface these are the steps of its winding number
-//! ([`crate::polygons::Solid`]), so the product of all of a path's refractions there depends on the path's
+//! ([`qrt_scene::polygons::Solid`]), so the product of all of a path's refractions there depends on the path's
 //! ends alone. With `w` the number at its last vertex and `v` at the camera, it is `ior^(2 (v - w))`. The
 //! possible positions of the camera and of the last vertex therefore give a bound for each solid.
 //!
 //! This requires that each crossing is traced. Faces that overlap on one plane are crossed as one, and the
 //! first of the list decides how. Scenes in which glass overlaps glass, except in slivers, are rejected
-//! ([`crate::valid`]). If there are slivers, or if another material that transmits lies on glass, no
+//! ([`qrt_scene::valid`]). If there are slivers, or if another material that transmits lies on glass, no
 //! refraction has a known bound.
 
 use super::geometry::Geometry;
-use crate::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
-use crate::valid::{Scatter, Surface};
 use glam::DVec3;
+use qrt_scene::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
+use qrt_scene::valid::{Scatter, Surface};
 
 /// Boxes nearer than this, in stage units, may have points in common.
 const MARGIN: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Functions of one sample coordinate: tables where that is possible.
 
-use crate::sampling::cell_centre;
+use qrt_scene::sampling::cell_centre;
 use std::fmt;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Plain numbers: the arithmetic of one path, for tests.
 
 use super::{Arith, Axis, Coordinate, Sampled};
-use crate::expr::Function;
+use qrt_scene::expr::Function;
 
 /// The arithmetic of one path, with a record of its operations.
 #[derive(Default)]
@@ -104,7 +104,7 @@ impl Arith for Scalar {
         self.cell[usize::from(coordinate.axis == Axis::V)]
     }
     fn centre(&mut self, index: u32, bits: u32) -> f64 {
-        crate::sampling::cell_centre(index, bits)
+        qrt_scene::sampling::cell_centre(index, bits)
     }
     fn sampled(&mut self, function: &Sampled, index: u32) -> f64 {
         function.at(index)

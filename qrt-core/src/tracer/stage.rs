@@ -8,9 +8,9 @@ use super::pixel_class::PixelClass;
 use super::places::Places;
 use super::refraction::Refraction;
 use super::{Arith, bound, geometry};
-use crate::scene::{DepthSampling, Material};
-use crate::valid::{Surface, ValidScene};
 use glam::DVec3;
+use qrt_scene::valid::{Surface, ValidScene};
+use qrt_scene::{DepthSampling, Material};
 use std::collections::HashSet;
 
 /// The relative amount by which rounding may take a path's colour over its bound.

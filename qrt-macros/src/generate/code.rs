@@ -118,7 +118,7 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
         "impl CompiledOracle for __Scene {{
             const OUTLINE: &'static Outline = &OUTLINE;
 
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {{
+            fn scene() -> &'static ::qrt::scene::valid::ValidScene {{
                 __Scene::scene()
             }}
 

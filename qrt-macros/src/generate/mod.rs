@@ -21,8 +21,8 @@ pub(crate) use stub::stub;
 use names::Names;
 use proc_macro2::TokenStream;
 use qrt_core::oracle::{CallCost, Oracle, OracleCost, check_budget, oracle_costs_knowing};
-use qrt_core::syntax::Problem;
-use qrt_core::valid::ValidScene;
+use qrt_scene::syntax::Problem;
+use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 /// The most operations of a circuit that becomes code. The code of more would take minutes to
@@ -85,7 +85,7 @@ fn text(
             type __Scene = {scene};
             const _: () = {{
             use ::qrt::core::compile::{{NamedPlace, PixelWord, Place}};
-            use ::qrt::core::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
+            use ::qrt::scene::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
             use ::qrt::circuit::{{
                 Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag,
                 Type, Word,
@@ -95,7 +95,7 @@ fn text(
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             }};
             use ::qrt::core::tracer::{{Named, Quantity}};
-            use ::qrt::runtime::machines::native::{{
+            use ::qrt::runtime::path_machines::native::{{
                 Integers, NativeOracle, Truths, Vectors, block, word,
             }};"
         );

@@ -3,7 +3,7 @@
 
 use super::names::identifiers;
 use qrt_core::oracle::paths::{PathFormat, PathFormats, PathNumber, RayNumber};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 /// The most faces of a label with a list of them. A label of more faces has no list, since its
@@ -78,7 +78,7 @@ pub(super) fn write(
         impl {PATHS}::PathScene for {scene} {{
             type Path = {scene}Path;
 
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {{
+            fn scene() -> &'static ::qrt::scene::valid::ValidScene {{
                 {scene}::scene()
             }}
 

@@ -102,14 +102,14 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
         {conditions}
         impl ::qrt::core::oracle::paths::PathScene for {name} {{
             type Path = {name}Path;
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {never} }}
+            fn scene() -> &'static ::qrt::scene::valid::ValidScene {{ {never} }}
             fn path(_: &mut ::qrt::core::oracle::paths::PathInputs<'_>) -> {name}Path {{ {never} }}
         }}
         {conditions}
         impl ::qrt::core::oracle::compiled::CompiledOracle for {name} {{
             const OUTLINE: &'static ::qrt::core::oracle::compiled::Outline =
                 &::qrt::core::oracle::compiled::Outline::NONE;
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {{ {never} }}
+            fn scene() -> &'static ::qrt::scene::valid::ValidScene {{ {never} }}
             fn within<M: ::qrt::circuit::Machine, T>(
                 _: &mut M,
                 _: &M::Register,
@@ -120,8 +120,8 @@ pub(crate) fn stub(name: &str, visibility: &str, conditions: &str) -> TokenStrea
             ) -> T {{ {never} }}
         }}
         {conditions}
-        impl ::qrt::runtime::machines::NativeOracle for {name} {{
-            fn native<V: ::qrt::runtime::machines::native::Vectors>(
+        impl ::qrt::runtime::path_machines::NativeOracle for {name} {{
+            fn native<V: ::qrt::runtime::path_machines::native::Vectors>(
                 _: V,
                 _: &[u64],
                 _: V::Longs,

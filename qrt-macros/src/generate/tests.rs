@@ -31,7 +31,7 @@ fn small(more: &str) -> ValidScene {
 }
 
 fn parsed(text: &str) -> ValidScene {
-    qrt_core::front::parse(text, "small.yaml", &[], "".as_ref())
+    qrt_scene::front::parse(text, "small.yaml", &[], "".as_ref())
         .unwrap_or_else(|report| panic!("{report}"))
         .valid
 }
@@ -119,7 +119,7 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
     let problems = problems.unwrap_err();
     let codes: Vec<_> = problems
         .iter()
-        .map(qrt_core::syntax::Problem::code)
+        .map(qrt_scene::syntax::Problem::code)
         .collect();
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }

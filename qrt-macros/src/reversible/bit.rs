@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Register};
 use super::scope::Scope;
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use std::rc::Rc;
 use syn::{BinOp, Expr, Lit, UnOp};
 

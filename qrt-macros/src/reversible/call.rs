@@ -4,7 +4,7 @@ use super::ir::{Place, Register, Statement, StatementKind as K};
 use super::scope::{Scope, begin, text, type_text};
 use super::signature;
 use proc_macro2::TokenStream;
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{Expr, ExprCall, ExprMethodCall, ExprPath, GenericArgument, Ident, PathArguments, QSelf};

@@ -8,7 +8,7 @@ use super::problem::Problems;
 use super::scope::text;
 use super::{Around, emit, signature, understood};
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{
     FnArg, ImplItem, ItemFn, ItemImpl, ItemTrait, ReceiverKind, TraitItem, Type, Visibility,

@@ -27,7 +27,7 @@ mod value;
 use ir::Routine;
 use problem::Problems;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use scope::Scope;
 
 /// Returns the expansion of an item with the attribute.

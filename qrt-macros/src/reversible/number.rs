@@ -17,7 +17,7 @@ use super::dim::{Dim, Linear};
 use super::ir::{Bit, Number, NumberKind, Place, Size};
 use super::scope::{Scope, text};
 use proc_macro2::TokenStream;
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::quote;
 use syn::{BinOp, Expr, Lit, UnOp};
 

@@ -3,7 +3,7 @@
 
 use super::methods::as_written;
 use proc_macro2::{Ident, TokenStream};
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::ToTokens;
 
 /// All problems found so far.

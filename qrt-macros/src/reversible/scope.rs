@@ -7,7 +7,7 @@ use super::outside;
 use super::problem::Problems;
 use super::statement::bare;
 use proc_macro2::{Span, TokenStream};
-use qrt_core::syntax::{codes, nearest};
+use qrt_scene::syntax::{codes, nearest};
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};

@@ -6,7 +6,7 @@ use super::problem::Problems;
 use super::scope::{text, type_text};
 use super::{Around, outside};
 use proc_macro2::{TokenStream, TokenTree};
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::quote;
 use std::rc::Rc;
 use syn::{

@@ -5,7 +5,7 @@ use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
 use super::scope::{Scope, begin, text};
 use super::signature;
 use proc_macro2::TokenStream;
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Block, Expr, Ident, Local, Pat, Stmt, StmtMacro, Type};

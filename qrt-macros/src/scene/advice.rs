@@ -1,6 +1,6 @@
 //! Advice: the right thing to write, in the macro's form.
 
-use qrt_core::syntax::{
+use qrt_scene::syntax::{
     Expected, Material, MeshFile, Sampling, Structure, What, Words, codes, listed, nearest,
 };
 
@@ -197,7 +197,7 @@ fn spelled(word: &str) -> String {
 mod tests {
     use super::super::body::ENTRIES;
     use super::*;
-    use qrt_core::scene;
+    use qrt_scene::{Camera, Material};
 
     #[test]
     fn every_record_has_a_key_that_may_be_written() {
@@ -206,7 +206,7 @@ mod tests {
             "name", "camera", "material", "quad", "triangle", "const", "for",
         ];
         let entries = ENTRIES.iter().filter(|entry| !others.contains(entry));
-        let kinds = [scene::Camera::NAMES, scene::Material::NAMES].concat();
+        let kinds = [Camera::NAMES, Material::NAMES].concat();
         for name in kinds.iter().chain(entries) {
             assert!(record(name).contains(": "), "{name}: {}", record(name));
         }

@@ -2,7 +2,7 @@
 
 use super::{Header, Parsed, Source};
 use proc_macro2::{Literal, TokenStream};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use quote::quote;
 use std::path::{Path, PathBuf};
 
@@ -51,14 +51,14 @@ pub(crate) fn expansion(
         #conditions
         impl #name {
             /// The scene, checked.
-            #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {
-                static SCENE: ::std::sync::OnceLock<::qrt::core::valid::ValidScene> =
+            #visibility fn scene() -> &'static ::qrt::scene::valid::ValidScene {
+                static SCENE: ::std::sync::OnceLock<::qrt::scene::valid::ValidScene> =
                     ::std::sync::OnceLock::new();
                 const TEXT: &str = #text;
                 const FILES: &[(&str, &[u8])] = &[#(#files),*];
                 SCENE.get_or_init(|| {
-                    let files = ::qrt::core::front::Files::held(FILES);
-                    match ::qrt::core::front::parse_with(TEXT, "the scene", &[], files) {
+                    let files = ::qrt::scene::front::Files::held(FILES);
+                    match ::qrt::scene::front::parse_with(TEXT, "the scene", &[], files) {
                         ::core::result::Result::Ok(loaded) => loaded.valid,
                         // The same text and the same files were checked when this was compiled.
                         ::core::result::Result::Err(report) => ::core::unreachable!("{report}"),
@@ -95,7 +95,7 @@ pub(crate) fn stub(header: &Header) -> TokenStream {
         #conditions
         impl #name {
             /// The scene, once its errors are corrected.
-            #visibility fn scene() -> &'static ::qrt::core::valid::ValidScene {
+            #visibility fn scene() -> &'static ::qrt::scene::valid::ValidScene {
                 ::core::unreachable!("this scene has errors")
             }
         }

@@ -2,7 +2,7 @@
 
 use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
-use qrt_core::syntax::tree;
+use qrt_scene::syntax::tree;
 use quote::{quote, quote_spanned};
 use std::fmt::Write as _;
 

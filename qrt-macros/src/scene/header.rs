@@ -2,8 +2,8 @@
 
 use super::fault::Faults;
 use proc_macro2::{Ident, TokenStream};
-use qrt_core::syntax::tree::Span;
-use qrt_core::syntax::{Report, codes};
+use qrt_scene::syntax::tree::Span;
+use qrt_scene::syntax::{Report, codes};
 use syn::parse::Parser as _;
 
 /// A scene's name, and the tokens before it.

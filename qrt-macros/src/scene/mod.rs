@@ -28,10 +28,10 @@ pub(crate) use {input::Read, input::read, terms::Terms, tokens::Table};
 
 use body::Body;
 use header::Header;
-use qrt_core::front::{Files, Loaded, of_tree};
-use qrt_core::syntax::tree::{Node, Span};
-use qrt_core::syntax::{At, Problem, Step, Structure, What, codes};
-use qrt_core::valid::ValidScene;
+use qrt_scene::front::{Files, Loaded, of_tree};
+use qrt_scene::syntax::tree::{Node, Span};
+use qrt_scene::syntax::{At, Problem, Step, Structure, What, codes};
+use qrt_scene::valid::ValidScene;
 use std::path::Path as FilePath;
 
 /// The words before the errors of a file.

@@ -3,8 +3,8 @@
 use super::body::{Body, Origin};
 use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
-use qrt_core::syntax::codes;
-use qrt_core::syntax::tree::{Node, Span, Value};
+use qrt_scene::syntax::codes;
+use qrt_scene::syntax::tree::{Node, Span, Value};
 use std::sync::Arc;
 
 impl Body {

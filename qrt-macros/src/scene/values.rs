@@ -6,8 +6,8 @@ use super::names::Names;
 use super::terms::Terms;
 use super::tokens::{Kind, Token, between_commas, join, place_of};
 use proc_macro2::Delimiter;
-use qrt_core::syntax::codes;
-use qrt_core::syntax::tree::{Entry, Node, Scalar, Span, Value};
+use qrt_scene::syntax::codes;
+use qrt_scene::syntax::tree::{Entry, Node, Scalar, Span, Value};
 use std::sync::Arc;
 
 /// A reader of values, with the state that later readers and reports need.

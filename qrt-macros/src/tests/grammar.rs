@@ -3,7 +3,7 @@
 use super::{code, read_text};
 use crate::scene::{Asked, Terms};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
-use qrt_core::scene::{Geometry, Scene};
+use qrt_scene::{Geometry, Scene};
 use std::path::Path;
 
 const CAMERA: &str = "camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },";

@@ -2,9 +2,9 @@
 
 use super::{code, read_text, writer};
 use proc_macro2::TokenStream;
-use qrt_core::front::{load, yaml};
-use qrt_core::scene::{Bsdf, Jacobian, Material, Scene};
-use qrt_core::syntax::{Problems, Source, codes};
+use qrt_scene::front::{load, yaml};
+use qrt_scene::syntax::{Problems, Source, codes};
+use qrt_scene::{Bsdf, Jacobian, Material, Scene};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,10 @@
 //! Tests of the drawings of a small scene's oracle.
 
 use super::*;
-use qrt_core::front::parse;
 use qrt_core::inspect::{Frame, Inspection, Part, grouped};
 use qrt_core::oracle::Options;
 use qrt_drawing::escaped;
+use qrt_scene::front::parse;
 
 /// A lamp over a floor: two rays for each path.
 const SCENE: &str = "

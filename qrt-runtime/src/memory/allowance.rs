@@ -4,7 +4,7 @@
 use super::allowed_bytes;
 use qrt_circuit::lower;
 use qrt_core::oracle::{MOST_BITS, Options, Oracle};
-use qrt_core::valid::{Scatter, ValidScene};
+use qrt_scene::valid::{Scatter, ValidScene};
 use std::time::Instant;
 
 /// Bytes of the rows that the same gates run on, one row after another, if gates are generated for
@@ -379,7 +379,7 @@ geometry:
         }
         let rays = vec!["{ bits: [6, 6] }"; rays].join(", ");
         let _ = writeln!(text, "sampling: {{ path_bits: 10, depths: [{rays}] }}");
-        let loaded = qrt_core::front::parse(&text, "tunnel.yaml", &[], "".as_ref());
+        let loaded = qrt_scene::front::parse(&text, "tunnel.yaml", &[], "".as_ref());
         loaded.unwrap_or_else(|report| panic!("{report}")).valid
     }
 

@@ -2,9 +2,9 @@
 
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
-use crate::counting::Octaves;
 use crate::sample::{Countable, Drawn, Draws};
-use qrt_core::scene::{Counting, Estimator};
+use qrt_counting::Octaves;
+use qrt_scene::{Counting, Estimator};
 use std::sync::PoisonError;
 
 impl Pilot<'_> {

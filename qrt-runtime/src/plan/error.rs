@@ -1,10 +1,10 @@
 //! The errors of choosing parameters.
 
-use crate::counting::CountingError;
-use crate::estimators::EstimatorError;
 use crate::sample::SampleError;
 use crate::workers::ThreadsError;
-use qrt_core::sampling::SamplingError;
+use qrt_counting::CountingError;
+use qrt_counting::estimators::EstimatorError;
+use qrt_scene::sampling::SamplingError;
 
 /// An error of choosing parameters for an accuracy.
 #[derive(Debug, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use qrt_core::inspect::grouped;
 use qrt_core::oracle::CallCost;
-use qrt_core::scene::{Accuracy, Estimator, Sequence};
+use qrt_scene::{Accuracy, Estimator, Sequence};
 use std::fmt;
 
 /// Errors at the requested confidence, in units of the mean radiance.

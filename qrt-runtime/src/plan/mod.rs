@@ -38,11 +38,11 @@ pub use error::PlanError;
 pub use figures::{ErrorParts, Figures};
 pub use pilot::MOST_TRIED;
 
-use crate::estimators::Noise;
 use crate::workers::Workers;
 use pilot::Pilot;
-use qrt_core::scene::{Counting, Estimator};
-use qrt_core::valid::ValidScene;
+use qrt_counting::estimators::Noise;
+use qrt_scene::valid::ValidScene;
+use qrt_scene::{Counting, Estimator};
 
 /// Options of a plan. Options that are not set follow from the scene.
 #[derive(Clone, Copy, Default)]

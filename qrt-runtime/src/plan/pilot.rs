@@ -1,16 +1,16 @@
 //! Measures the errors on a sample of pixels, part by part.
 
 use super::{Options, PlanError};
-use crate::counting::{Comparators, CountingError, Octaves};
-use crate::estimators::Noise;
-use crate::machines::{OracleMachine, Real};
+use crate::path_machines::{OracleMachine, Real};
 use crate::sample::{Means, Tally, counted_tallies, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
 use qrt_core::oracle::{self, CallCost, Oracle, most_expensive_oracle};
-use qrt_core::sampling::MAX_PATH_BITS;
-use qrt_core::scene::{Accuracy, Comparator, Estimator, Sequence};
 use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_core::valid::{Parameters, ValidScene};
+use qrt_counting::estimators::Noise;
+use qrt_counting::{Comparators, CountingError, Octaves};
+use qrt_scene::sampling::MAX_PATH_BITS;
+use qrt_scene::valid::{Parameters, ValidScene};
+use qrt_scene::{Accuracy, Comparator, Estimator, Sequence};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::sync::Arc;

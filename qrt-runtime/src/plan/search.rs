@@ -4,7 +4,7 @@ use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::together::{each_total, failing, will_do};
 use super::{ErrorParts, Figures, Plan, PlanError};
 use qrt_core::oracle::{CallCost, DEFAULT_FRACTION};
-use qrt_core::scene::{Counting, Estimator, Sequence};
+use qrt_scene::{Counting, Estimator, Sequence};
 
 /// The largest number of path bits, including extrapolated ones.
 const MOST_PATHS: u32 = 32;

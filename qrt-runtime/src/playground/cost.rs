@@ -3,7 +3,7 @@
 use super::{Answer, Refused};
 use crate::draw;
 use qrt_core::inspect::{Inspection, Part};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 
 /// Answers the costs of the most expensive of the scene's oracles, as `qrt inspect` reports them,
 /// its stages in the order of computation, and its drawing.

@@ -36,16 +36,16 @@ mod tests;
 
 pub use answer::Answer;
 
-use crate::counting::CountingError;
-use crate::estimators::EstimatorError;
 use crate::render::{Model, RenderError};
 use crate::sample::SampleError;
 use picture::Picture;
-use qrt_core::front::{Files, Loaded, parse_with};
 use qrt_core::oracle::OracleError;
-use qrt_core::sampling::SamplingError;
-use qrt_core::syntax::{Problem, Report};
-use qrt_core::valid::ValidScene;
+use qrt_counting::CountingError;
+use qrt_counting::estimators::EstimatorError;
+use qrt_scene::front::{Files, Loaded, parse_with};
+use qrt_scene::sampling::SamplingError;
+use qrt_scene::syntax::{Problem, Report};
+use qrt_scene::valid::ValidScene;
 
 /// The name of the scene's text in error messages.
 const NAME: &str = "scene.yaml";

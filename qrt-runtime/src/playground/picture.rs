@@ -1,16 +1,16 @@
 //! A picture that is refined: with more and more paths, and with more and more queries.
 
 use super::{Answer, Refused};
-use crate::counting::{Comparators, Octaves};
-use crate::estimators::Noise;
-use crate::machines::{OracleMachine, Real};
+use crate::path_machines::{OracleMachine, Real};
 use crate::render::Model;
 use crate::sample::{Countable, Draws, Tally, counted_tallies, tallies};
 use crate::workers::Workers;
 use qrt_core::oracle::{Options, Oracle};
-use qrt_core::scene::{Counting, Estimator};
 use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_core::valid::ValidScene;
+use qrt_counting::estimators::Noise;
+use qrt_counting::{Comparators, Octaves};
+use qrt_scene::valid::ValidScene;
+use qrt_scene::{Counting, Estimator};
 use std::ops::Range;
 
 /// The estimator that is used if the scene's own is `exact`.

@@ -1,13 +1,13 @@
 //! One pixel: its brightest paths, its counts, and the distribution that a phase register shows.
 
 use super::{Answer, Refused};
-use crate::counting::{Comparators, PhaseDistribution};
-use crate::machines::Real;
+use crate::path_machines::Real;
 use crate::predicates::{TracedPath, trace_path_of};
 use crate::render::Model;
-use qrt_core::scene::Window;
 use qrt_core::tracer::PixelClasses;
-use qrt_core::valid::ValidScene;
+use qrt_counting::{Comparators, PhaseDistribution};
+use qrt_scene::Window;
+use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
 
 /// The largest number of paths that the answer lists.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::render::{Options, render};
-use qrt_core::front::parse;
-use qrt_core::scene::Estimator;
+use qrt_scene::Estimator;
+use qrt_scene::front::parse;
 
 /// A floor under a lamp. Some pixels see the lamp itself, others its light reflected by the floor.
 const FLOOR: &str = "

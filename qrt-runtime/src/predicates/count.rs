@@ -1,18 +1,18 @@
 //! Counts the fraction of paths that satisfy a predicate.
 
 use super::check;
-use crate::estimators::{Device, Estimate, Noise, Problem, Settings};
 use crate::image::{Image, Window};
-use crate::machines::{OracleMachine, Real};
-use crate::random::Stream;
+use crate::path_machines::{OracleMachine, Real};
 use crate::render::{Model, Options, RenderError, crop_of};
 use crate::workers::{Progress, slow_build};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::paths::PathScene;
 use qrt_core::oracle::{self, Marks, PREDICATE_CHANNEL, Predicate};
-use qrt_core::scene::Estimator;
 use qrt_core::tracer::PixelClass;
+use qrt_counting::estimators::{Device, Estimate, Noise, Problem, Settings};
+use qrt_counting::random::Stream;
+use qrt_scene::Estimator;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};

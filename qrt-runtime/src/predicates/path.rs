@@ -1,11 +1,11 @@
 //! One path of a scene, in the scene's units.
 
-use crate::machines::{OracleMachine, Real};
+use crate::path_machines::{OracleMachine, Real};
 use crate::render::{Model, RenderError};
 use qrt_circuit::Word;
 use qrt_core::oracle::paths::{PathFormats, PathNumber, PathScene, RayNumber};
 use qrt_core::oracle::{Oracle, PredicateError};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use super::{Model, Options, RenderError};
 use crate::memory::CircuitWork;
 use qrt_core::oracle::{check_budget, oracle_costs};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use std::num::NonZeroUsize;
 use std::thread::available_parallelism;
 

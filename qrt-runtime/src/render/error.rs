@@ -1,17 +1,17 @@
 //! Errors of rendering a picture.
 
 use crate::checkpoint::CheckpointError;
-use crate::counting::CountingError;
-use crate::estimators::EstimatorError;
-use crate::machines::Defect;
 use crate::memory::MemoryError;
+use crate::path_machines::Defect;
 use crate::plan::PlanError;
 use crate::search::RoundsError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::{OracleError, PredicateError};
-use qrt_core::sampling::SamplingError;
-use qrt_core::scene::Estimator;
-use qrt_core::syntax::Problem;
+use qrt_counting::CountingError;
+use qrt_counting::estimators::EstimatorError;
+use qrt_scene::Estimator;
+use qrt_scene::sampling::SamplingError;
+use qrt_scene::syntax::Problem;
 use std::path::{Path, PathBuf};
 
 /// An error of rendering a picture.
@@ -72,7 +72,7 @@ pub enum RenderError {
     /// The work would exceed the memory budget, by an estimate.
     #[error(transparent)]
     WouldNotFit(#[from] MemoryError),
-    /// The scene's circuit costs more than its `budget` allows. [`qrt_core::front::Loaded::report`]
+    /// The scene's circuit costs more than its `budget` allows. [`qrt_scene::front::Loaded::report`]
     /// shows the problems at their places.
     #[error("the circuit is beyond the scene's budget: {}", first(.0))]
     Budget(Vec<Problem>),

@@ -2,10 +2,10 @@
 
 use super::{RenderError, Rendered, tiles};
 use crate::image::Layer;
-use crate::machines::{Real, SingleRay};
+use crate::path_machines::{Real, SingleRay};
 use glam::DVec3;
 use qrt_core::tracer::Start;
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 
 /// Number of pixels whose primary hits are found at a time.
 const PIXELS: usize = 1 << 12;

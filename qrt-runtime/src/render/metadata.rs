@@ -3,7 +3,7 @@
 use super::Rendered;
 use super::own::PREFIX;
 use crate::image::{ImageError, Metadata};
-use qrt_core::scene::Estimator;
+use qrt_scene::Estimator;
 
 impl Rendered {
     /// Creates the metadata of the picture. It is the same on every run.

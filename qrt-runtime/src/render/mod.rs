@@ -31,7 +31,7 @@
 //! from path indices, and draws are keyed by pixel and channel.
 //!
 //! ```
-//! use qrt_core::front::parse;
+//! use qrt_scene::front::parse;
 //! use qrt_runtime::render::{Options, render};
 //! let text = "
 //! name: sky
@@ -74,20 +74,20 @@ pub use portion::{Portion, PortionError};
 pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
 
 use crate::checkpoint::Checkpoint;
-use crate::estimators::Noise;
 use crate::image::{Count, Image};
-use crate::machines::{NativeOracle, OracleMachine, Real, Simd};
 use crate::memory::Memory;
 use crate::named::named;
+use crate::path_machines::{NativeOracle, OracleMachine, Real, Simd};
 use crate::plan::{self, Figures, Plan, plan};
 use crate::workers::Workers;
 use classes::Classes;
 use job::Job;
 use pixel::{Pixels, Source};
 use qrt_core::oracle::{self, Marks, Oracle, OracleError, Predicate};
-use qrt_core::scene::Estimator;
 use qrt_core::tracer::PixelClass;
-use qrt_core::valid::{Parameters, ValidScene};
+use qrt_counting::estimators::Noise;
+use qrt_scene::Estimator;
+use qrt_scene::valid::{Parameters, ValidScene};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use tiles::Tiles;

@@ -18,15 +18,15 @@
 
 use super::pixel::{Pixels, Source, Stop, ended, go_on};
 use super::{Colour, Options, RenderError};
-use crate::counting::{Comparators, CountingError, Octaves, Stratum};
-use crate::estimators::{
-    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem, Settings,
-};
-use crate::random::Stream;
 use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
-use qrt_core::scene::Scene;
-use qrt_core::valid::ValidScene;
+use qrt_counting::estimators::{
+    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem, Settings,
+};
+use qrt_counting::random::Stream;
+use qrt_counting::{Comparators, CountingError, Octaves, Stratum};
+use qrt_scene::Scene;
+use qrt_scene::valid::ValidScene;
 use std::ops::Range;
 
 /// The smallest number of paths whose counts are kept as one sum.

@@ -1,8 +1,8 @@
 //! Pictures with a user-defined estimator.
 
 use super::{OWN_LIKE, Options, RenderError};
-use crate::estimators::{AmplitudeEstimator, EstimatorError, Settings, estimator};
-use qrt_core::scene::{Estimator, Scene};
+use qrt_counting::estimators::{AmplitudeEstimator, EstimatorError, Settings, estimator};
+use qrt_scene::{Estimator, Scene};
 use std::fmt;
 
 /// The longest name of a user-defined estimator, in bytes.
@@ -19,8 +19,8 @@ type Make<'a> = dyn Fn(&Settings) -> Result<BoxedEstimator, EstimatorError> + Sy
 /// A user-defined estimator for [`super::render`]: set [`Options::own_estimator`].
 ///
 /// ```
-/// use qrt_core::front::parse;
-/// use qrt_runtime::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError};
+/// use qrt_scene::front::parse;
+/// use qrt_counting::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError};
 /// use qrt_runtime::render::{Options, OwnEstimator, render};
 ///
 /// /// The fraction of good indices among 100 that are drawn at random.

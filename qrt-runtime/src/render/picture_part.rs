@@ -16,14 +16,14 @@ use super::{
     render_portion,
 };
 use crate::checkpoint::{Checkpoint, CheckpointError, Difference, Ending, Header, Record, Tile};
-use crate::estimators::Noise;
 use crate::image::Image;
 use crate::plan::{ErrorParts, Figures};
 use crate::search::Guess;
 use qrt_core::oracle::CallCost;
-use qrt_core::scene::{Accuracy, Estimator, Scene, Sequence};
 use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_core::valid::{Parameters, ValidScene};
+use qrt_counting::estimators::Noise;
+use qrt_scene::valid::{Parameters, ValidScene};
+use qrt_scene::{Accuracy, Estimator, Scene, Sequence};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -129,7 +129,7 @@ pub struct PicturePart {
 /// As [`super::render`]; and if there are more portions than pixels of the picture.
 ///
 /// ```
-/// use qrt_core::front::parse;
+/// use qrt_scene::front::parse;
 /// use qrt_runtime::render::{Merge, Options, Portion, render, render_part};
 /// let text = "
 /// name: sky

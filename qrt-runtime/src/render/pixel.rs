@@ -5,15 +5,15 @@ use super::parts::Parts;
 use super::totals::Totals;
 use super::{BoxedEstimator, Colour, Options, RenderError};
 use crate::checkpoint::Part;
-use crate::counting::{Comparators, Octaves};
-use crate::estimators::{
-    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
-};
-use crate::machines::{Defect, OracleMachine, PathBlock, Real};
-use crate::random::Stream;
+use crate::path_machines::{Defect, OracleMachine, PathBlock, Real};
 use crate::workers::{Progress, Workers};
 use qrt_core::oracle::luminance;
-use qrt_core::scene::{Estimator, Scene};
+use qrt_counting::estimators::{
+    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
+};
+use qrt_counting::random::Stream;
+use qrt_counting::{Comparators, Octaves};
+use qrt_scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -580,10 +580,10 @@ impl Pixels {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machines::Real;
+    use crate::path_machines::Real;
     use qrt_circuit::Operand;
-    use qrt_core::front::parse;
     use qrt_core::oracle::Oracle;
+    use qrt_scene::front::parse;
     use std::sync::atomic::{AtomicBool, Ordering};
 
     /// A wall of radiance 2, 1, 0 that fills the picture, so that every path has this colour.

@@ -1,8 +1,8 @@
 //! Sums over a pixel's paths.
 
 use super::one_run::{OneRun, Segments};
-use crate::counting::Octaves;
 use crate::sample::Sum;
+use qrt_counting::Octaves;
 
 /// Sums over the paths of a pixel, per channel.
 #[derive(Clone, Debug, Default)]

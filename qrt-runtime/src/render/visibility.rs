@@ -7,12 +7,12 @@
 //! [`qrt_core::oracle::Oracle::given_primary_hit`].
 
 use super::{Model, Options, RenderError};
-use crate::machines::{NearestMachine, OracleMachine, PrimaryHits};
+use crate::path_machines::{NearestMachine, OracleMachine, PrimaryHits};
 use crate::search::{FoundHits, Guess, Method, Rounds};
 use qrt_core::oracle::{NearestOracle, Oracle};
-use qrt_core::scene::{Estimator, Scene};
 use qrt_core::tracer::PixelClass;
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
+use qrt_scene::{Estimator, Scene};
 use std::sync::Arc;
 
 /// The default probability that a ray's search misses the nearest face.

@@ -1,11 +1,11 @@
 //! Estimates of pixels, drawn several times.
 
-use crate::counting::Octaves;
-use crate::estimators::{
+use qrt_counting::Octaves;
+use qrt_counting::estimators::{
     AmplitudeEstimator, Device, EstimatorError, Noise, Problem, Settings, estimator,
 };
-use crate::random::Stream;
-use qrt_core::scene::Counting;
+use qrt_counting::random::Stream;
+use qrt_scene::Counting;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;

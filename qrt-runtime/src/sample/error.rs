@@ -1,6 +1,6 @@
 //! Errors of summing the paths of pixels.
 
-use crate::machines::Defect;
+use crate::path_machines::Defect;
 
 /// An error of summing the paths of a sample of pixels.
 #[derive(Debug, thiserror::Error)]

@@ -15,7 +15,7 @@ pub use spread::spread;
 pub(crate) use sum::Sum;
 pub use tally::{Tally, counted_tallies, tallies};
 
-use crate::machines::Real;
+use crate::path_machines::Real;
 use crate::workers::Workers;
 
 /// The mean of a pixel's paths, by pixel and channel.

@@ -1,9 +1,9 @@
 //! Sums over the paths of pixels, on all threads.
 
 use super::{SampleError, Sum};
-use crate::counting::{Comparators, Octaves};
-use crate::machines::{OracleMachine, Real};
+use crate::path_machines::{OracleMachine, Real};
 use crate::workers::Workers;
+use qrt_counting::{Comparators, Octaves};
 use rayon::prelude::*;
 use std::ops::Range;
 

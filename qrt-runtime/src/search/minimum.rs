@@ -1,8 +1,8 @@
 //! Finds the minimum by repeated searches for a nearer face than the nearest so far.
 
 use super::rounds::{Rounds, marked_probability};
-use crate::machines::Candidate;
-use crate::random::Stream;
+use crate::path_machines::Candidate;
+use qrt_counting::random::Stream;
 
 /// A search for the nearest face of one ray.
 #[derive(Clone, Debug)]

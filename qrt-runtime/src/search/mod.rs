@@ -2,7 +2,7 @@
 //! square root of the number of faces.
 //!
 //! Of the `N = 2^m` basis states of a face's number, the oracle of nearest hits
-//! ([`crate::machines::NearestMachine`]) marks M: the faces that the ray meets nearer than the
+//! ([`crate::path_machines::NearestMachine`]) marks M: the faces that the ray meets nearer than the
 //! nearest so far. After k iterations of Grover's iterate from the uniform superposition, the
 //! measured number is a marked one with probability
 //!
@@ -30,7 +30,7 @@
 //! counts as one query.
 //!
 //! ```
-//! use qrt_runtime::random::Stream;
+//! use qrt_counting::random::Stream;
 //! use qrt_runtime::search::{Rounds, Search};
 //!
 //! // The least of 1,000 numbers. What an oracle marks is what is below the least so far.

@@ -1,9 +1,11 @@
 //! Finds the primary hits of paths with the oracle of nearest hits.
 
 use super::{Rounds, Search};
-use crate::machines::{Answers, Asked, Candidate, Defect, NearestMachine, PathRun, PrimaryHits};
 use crate::named::named;
-use crate::random::Stream;
+use crate::path_machines::{
+    Answers, Asked, Candidate, Defect, NearestMachine, PathRun, PrimaryHits,
+};
+use qrt_counting::random::Stream;
 use std::collections::BTreeMap;
 
 /// Number of successive paths in a chain: each takes the hit of the path before it as its first

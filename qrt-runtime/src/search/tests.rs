@@ -1,6 +1,6 @@
 use super::*;
-use crate::machines::Candidate;
-use crate::random::Stream;
+use crate::path_machines::Candidate;
+use qrt_counting::random::Stream;
 
 /// Runs a search among `ranks`, which count from the nearest. Returns the rank found, and the
 /// queries.

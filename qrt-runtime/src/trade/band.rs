@@ -1,6 +1,6 @@
 //! Errors over a sample of pixels, and their confidence intervals.
 
-use crate::random::Stream;
+use qrt_counting::random::Stream;
 
 /// Number of times that the bootstrap draws the sample anew.
 const RESAMPLED: usize = 400;

@@ -4,18 +4,18 @@ use super::band::Band;
 use super::error::{TradeError, first};
 use super::setting::Setting;
 use super::table::Row;
-use crate::counting::{Comparators, Octaves};
-use crate::estimators::Noise;
-use crate::machines::{OracleMachine, Real};
+use crate::path_machines::{OracleMachine, Real};
 use crate::render::Model;
 use crate::sample::{
     self, Countable, Drawn, Draws, Means, SampleError, Tally, counted_tallies, tallies,
 };
 use crate::workers::Workers;
 use qrt_core::oracle::{self, CallCost, Oracle, most_expensive_oracle};
-use qrt_core::scene::{Circuit, Comparator, Estimator, Sampling};
 use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_core::valid::{Parameters, ValidScene};
+use qrt_counting::estimators::Noise;
+use qrt_counting::{Comparators, Octaves};
+use qrt_scene::valid::{Parameters, ValidScene};
+use qrt_scene::{Circuit, Comparator, Estimator, Sampling};
 use std::sync::Arc;
 use std::time::Instant;
 

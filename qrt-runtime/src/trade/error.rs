@@ -1,12 +1,12 @@
 //! Errors of `qrt trade`.
 
-use crate::counting::CountingError;
-use crate::estimators::EstimatorError;
 use crate::sample::SampleError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::OracleError;
-use qrt_core::sampling::SamplingError;
-use qrt_core::syntax::Problem;
+use qrt_counting::CountingError;
+use qrt_counting::estimators::EstimatorError;
+use qrt_scene::sampling::SamplingError;
+use qrt_scene::syntax::Problem;
 use std::io;
 use std::path::PathBuf;
 

@@ -6,8 +6,8 @@ use super::setting::Sweep;
 use super::styles::{free, hollow, style};
 use super::table::Row;
 use super::{Band, Trade};
-use qrt_core::scene::{Estimator, Sequence};
 use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
+use qrt_scene::{Estimator, Sequence};
 
 /// A plot and its caption.
 pub(super) struct Figure {

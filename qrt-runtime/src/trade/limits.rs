@@ -5,10 +5,10 @@ use super::bench::Bench;
 use super::error::TradeError;
 use super::rivals::lit;
 use super::setting::depths;
-use crate::machines::Real;
+use crate::path_machines::Real;
 use crate::sample::{Means, prefix_means};
-use qrt_core::scene::{Sampling, Sequence};
-use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, ValidScene};
+use qrt_scene::valid::{MAX_NET_DEPTHS, Parameters, ValidScene};
+use qrt_scene::{Sampling, Sequence};
 
 /// Key of the reference's shifts, combined with the seed.
 const REFERENCE: u64 = 0x5265_6665_7265_6e63;

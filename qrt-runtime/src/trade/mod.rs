@@ -85,7 +85,7 @@ use crate::replace_file::replace_file;
 use crate::sample::spread;
 use crate::workers::{Progress, Workers};
 use bench::{Bench, Effort};
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use table::Contents;
@@ -201,7 +201,7 @@ fn measure(scene: &ValidScene, folder: &Path, options: &Options<'_>) -> Result<T
     let longest = counted.map(|setting| setting.path_bits).max();
     let more = if options.quick { 3 } else { 4 };
     let effort = Effort {
-        reference_bits: (longest.unwrap_or(0) + more).min(qrt_core::sampling::MAX_PATH_BITS),
+        reference_bits: (longest.unwrap_or(0) + more).min(qrt_scene::sampling::MAX_PATH_BITS),
         depth_bits: written.sampling.path_bits.clamp(8, 12),
         draws: if options.quick { 2 } else { 4 },
     };

@@ -5,7 +5,7 @@ use super::bench::{Bench, Effort};
 use super::error::TradeError;
 use crate::image::{Encoding, Image, Metadata, write_to};
 use crate::sample;
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 
 /// The largest length of the picture's longer side, in pixels.
 const SIDE: u32 = 96;

@@ -10,13 +10,13 @@ use super::styles::free;
 use super::sweep::most_paths;
 use super::table::Row;
 use super::{Band, Trade, pareto};
-use crate::machines::Real;
+use crate::path_machines::Real;
 use crate::sample::{self, Means, SampleError, Sum};
 use crate::workers::Workers;
 use qrt_core::oracle::CallCost;
-use qrt_core::scene::{Estimator, Lights, Sampling, Sequence};
 use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_drawing::{Axis, Drawn, Fit, Plot};
+use qrt_scene::{Estimator, Lights, Sampling, Sequence};
 use rayon::prelude::*;
 use std::time::Instant;
 

@@ -3,11 +3,9 @@
 use crate::named::named;
 use crate::render::Model;
 use qrt_core::oracle::DEFAULT_FRACTION;
-use qrt_core::sampling::Square;
-use qrt_core::scene::{
-    Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
-};
-use qrt_core::valid::{Parameters, most_strata};
+use qrt_scene::sampling::Square;
+use qrt_scene::valid::{Parameters, most_strata};
+use qrt_scene::{Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute};
 
 named! {
     /// The parameter that a row is about.

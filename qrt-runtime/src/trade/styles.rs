@@ -1,7 +1,7 @@
 //! Colours and marks of series, the same in every plot.
 
-use qrt_core::scene::Estimator;
 use qrt_drawing::{STYLES, Series};
+use qrt_scene::Estimator;
 
 /// The style ([`Series::style`]) of a series that several plots share, by its name.
 ///
@@ -67,8 +67,8 @@ pub(super) fn free(wanted: usize, others: &[Series]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_core::scene::Sequence;
     use qrt_drawing::Drawn;
+    use qrt_scene::Sequence;
 
     /// Checks the series that share a plot: all estimators, or both sequences and random paths.
     #[test]

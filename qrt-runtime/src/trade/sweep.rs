@@ -5,8 +5,8 @@
 
 use super::setting::{Setting, Sweep};
 use crate::render::Model;
-use qrt_core::scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
-use qrt_core::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
+use qrt_scene::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
+use qrt_scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
 
 /// Number of times that a register is halved before it is repeated, to make up for up to 32
 /// repetitions.

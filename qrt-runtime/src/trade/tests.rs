@@ -4,9 +4,9 @@ use super::table::Table;
 use super::*;
 use crate::disk::faults::{Plan, Watched};
 use crate::scratch::Scratch;
-use qrt_core::front::parse;
 use qrt_core::oracle::CallCost;
-use qrt_core::scene::{Estimator, Sequence};
+use qrt_scene::front::parse;
+use qrt_scene::{Estimator, Sequence};
 
 /// A lamp over a floor, seen obliquely; two rays.
 const LIT: &str = "

@@ -3,7 +3,7 @@
 use crate::plan::PlanError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::OracleError;
-use qrt_core::sampling::SamplingError;
+use qrt_scene::sampling::SamplingError;
 
 /// An error that prevents a comparison of the models. Differences between models are in the report.
 #[derive(Debug, thiserror::Error)]

@@ -12,7 +12,7 @@ mod paths;
 
 pub use error::VerifyError;
 
-use crate::machines::{Defect, OracleCircuits, OracleMachine, Real};
+use crate::path_machines::{Defect, OracleCircuits, OracleMachine, Real};
 use crate::plan;
 use crate::render::{Model, Portion};
 use crate::sample::spread;
@@ -20,7 +20,7 @@ use crate::workers::{Progress, Workers};
 use paths::{Found, Trio, show};
 use qrt_core::oracle::{self, Oracle, OracleCost, oracle_costs_of_class};
 use qrt_core::tracer::PixelClasses;
-use qrt_core::valid::ValidScene;
+use qrt_scene::valid::ValidScene;
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! Compares a run of paths on all three machines.
 
 use super::{Mismatch, SHOWN};
-use crate::machines::{Defect, OracleMachine, Real};
+use crate::path_machines::{Defect, OracleMachine, Real};
 use crate::render::Model;
 use qrt_core::oracle::Oracle;
-use qrt_core::scene::ComparatorAt;
+use qrt_scene::ComparatorAt;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 

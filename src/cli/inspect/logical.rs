@@ -2,11 +2,11 @@
 
 use crate::cli::failure::Failure;
 use qrt_circuit::quantum::LogicalCounts;
-use qrt_core::front::Loaded;
 use qrt_core::inspect::Inspection;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::physical::{Counts, PhysicalError, PictureCounts};
 use qrt_runtime::plan::Figures;
+use qrt_scene::front::Loaded;
+use qrt_scene::valid::ValidScene;
 use serde_json::{Map, Value, json};
 
 /// Returns the logical counts of a call of the oracle, of a pixel's run of the inspected channel, of a

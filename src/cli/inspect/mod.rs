@@ -12,15 +12,15 @@ use super::memory;
 use super::progress::Bar;
 use super::terminal;
 use clap::Args;
-use qrt_core::front::Loaded;
 use qrt_core::inspect::{CHANNELS, Frame, Inspection, OraclePixel, PassFigures};
 use qrt_core::oracle::{OracleCost, OracleError, check_budget, oracle_costs};
 use qrt_core::tracer::PixelClass;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::draw;
 use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
 use qrt_runtime::replace_file::replace_file;
+use qrt_scene::front::Loaded;
+use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

@@ -6,13 +6,13 @@ use crate::cli::files::Output;
 use crate::cli::interrupt;
 use crate::cli::progress::Bar;
 use qrt_core::compile::Strategy;
-use qrt_core::front::Loaded;
 use qrt_core::inspect::{OraclePixel, grouped};
 use qrt_core::oracle::{Layout, OracleCost, OracleName, oracle_costs_under};
 use qrt_core::tracer::PixelClasses;
-use qrt_core::valid::ValidScene;
 use qrt_runtime::layouts::{LayoutsError, drawing, front};
 use qrt_runtime::workers::Workers;
+use qrt_scene::front::Loaded;
+use qrt_scene::valid::ValidScene;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

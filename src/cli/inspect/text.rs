@@ -5,7 +5,7 @@ use qrt_circuit::lower::Cost;
 use qrt_core::compile::Role;
 use qrt_core::inspect::{BlockFigures, Inspection, Part, Stage, grouped};
 use qrt_core::oracle::PARTS_OF_A_CALL;
-use qrt_core::scene::Uncompute;
+use qrt_scene::Uncompute;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 

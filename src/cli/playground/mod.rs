@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::terminal;
 use clap::Args;
 use http::{Answer, Asked};
-use qrt_core::front::{Files, MAX_BYTES};
 use qrt_runtime::playground::Playground;
+use qrt_scene::front::{Files, MAX_BYTES};
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ pub(crate) fn run(args: &PlaygroundArgs) -> Result<(), Failure> {
             None => Files::held(examples::FILES),
         },
         scene,
-        schema: qrt_core::schema::text(),
+        schema: qrt_scene::schema::text(),
         sessions: Mutex::default(),
     };
     let failed = |error: std::io::Error| {

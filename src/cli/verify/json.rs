@@ -3,9 +3,9 @@
 use super::{CIRCUIT, Found, VerifyArgs};
 use crate::cli::inspect::oracle_cost;
 use qrt_core::oracle::PARTS_OF_A_CALL;
-use qrt_core::valid::ValidScene;
-use qrt_runtime::machines::Defect;
+use qrt_runtime::path_machines::Defect;
 use qrt_runtime::render::Model;
+use qrt_scene::valid::ValidScene;
 use serde_json::{Value, json};
 
 /// Returns the result of a check as JSON.

@@ -3,10 +3,10 @@
 use super::super::failure::Failure;
 use super::Found;
 use qrt_core::oracle::{CallCost, OracleCost, oracle_names};
-use qrt_core::valid::ValidScene;
 use qrt_runtime::disk::read_regular;
 use qrt_runtime::render::Portion;
 use qrt_runtime::verify::{Mismatch, Options, Report, pixels};
+use qrt_scene::valid::ValidScene;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

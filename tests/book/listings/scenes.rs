@@ -1,7 +1,7 @@
 //! Blocks of YAML: whole scenes, or parts of them.
 
 use super::diff::diff;
-use qrt::core::front;
+use qrt::scene::front;
 use std::path::Path;
 
 /// Blocks of a scene that replace those that a page leaves out.

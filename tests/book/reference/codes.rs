@@ -2,7 +2,7 @@
 
 use super::markdown::{plain, sentence, wrapped};
 use super::reports;
-use qrt::core::syntax::codes::{Code, TABLE};
+use qrt::scene::syntax::codes::{Code, TABLE};
 use std::fmt::Write as _;
 
 /// Groups of codes by their first characters, with titles and descriptions.
@@ -140,7 +140,7 @@ fn every_code_but_one_has_a_report() {
         .map(|row| row.code)
         .filter(|code| !reports.contains_key(*code))
         .collect();
-    assert_eq!(without, [qrt::core::syntax::codes::OBJ_REFUSED]);
+    assert_eq!(without, [qrt::scene::syntax::codes::OBJ_REFUSED]);
     for (code, report) in reports {
         assert!(
             report.contains(code) && report.lines().count() < 30,

@@ -32,7 +32,7 @@ line: `--set camera.perspective.vfov=30`. Elements of lists have numbers from 0,
 
 /// Returns the whole page.
 pub(crate) fn page() -> String {
-    let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
+    let schema: Value = serde_yaml::from_str(&qrt::scene::schema::text()).unwrap();
     let blocks = entries(&schema, "properties");
     let mut page = HEAD.to_owned();
     let names = |needed: bool| {
@@ -202,7 +202,7 @@ fn walk<'a>(path: &str, schema: &'a Value, found: &mut Vec<(String, &'a Value)>)
 
 #[test]
 fn every_key_of_the_schema_is_on_the_page_and_nothing_else() {
-    let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
+    let schema: Value = serde_yaml::from_str(&qrt::scene::schema::text()).unwrap();
     let mut found = Vec::new();
     walk("", &schema, &mut found);
     let page = page();
@@ -239,7 +239,7 @@ fn every_key_of_the_schema_is_on_the_page_and_nothing_else() {
 
 #[test]
 fn every_block_has_an_example_of_its_own() {
-    let schema: Value = serde_yaml::from_str(&qrt::core::schema::text()).unwrap();
+    let schema: Value = serde_yaml::from_str(&qrt::scene::schema::text()).unwrap();
     let names = entries(&schema, "properties").keys();
     let names: Vec<&str> = names.filter_map(Value::as_str).collect();
     let mut examples = EXAMPLES.map(|(name, _)| name);

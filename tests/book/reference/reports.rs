@@ -1,13 +1,13 @@
 //! Reports of real faults, one for each code.
 
 use qrt::core::compile::BuildError;
-use qrt::core::front::{Files, Loaded, obj, parse, parse_with};
 use qrt::core::oracle::{MOST_FACES, OracleError, check_budget, oracle_costs};
-use qrt::core::scene::meshes::Meshes;
-use qrt::core::scene::{Bsdf, Jacobian};
-use qrt::core::syntax::{Problem, Report};
-use qrt::core::valid::{bsdf, validate};
 use qrt::runtime::mitsuba;
+use qrt::scene::front::{Files, Loaded, obj, parse, parse_with};
+use qrt::scene::meshes::Meshes;
+use qrt::scene::syntax::{Problem, Report};
+use qrt::scene::valid::{bsdf, validate};
+use qrt::scene::{Bsdf, Jacobian};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! Extremes of counting: good indices, phase registers, repetitions.
 
 use super::Extreme;
-use qrt::core::scene::{Counting, Estimator, Window};
-use qrt::runtime::counting::PhaseDistribution;
-use qrt::runtime::estimators::{Estimate, Problem, estimate};
-use qrt::runtime::random::Stream;
+use qrt::counting::PhaseDistribution;
+use qrt::counting::estimators::{Estimate, Problem, estimate};
+use qrt::counting::random::Stream;
+use qrt::scene::{Counting, Estimator, Window};
 
 /// Runs an estimator once; its result must be valid for any problem.
 fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64) -> Estimate {

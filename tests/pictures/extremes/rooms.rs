@@ -6,10 +6,10 @@
 
 use super::Extreme;
 use crate::pictures::cube::{WALLS, corner};
-use qrt::core::front::parse;
-use qrt::core::scene::Estimator;
-use qrt::core::syntax::Report;
 use qrt::runtime::render::{Model, Options, render};
+use qrt::scene::Estimator;
+use qrt::scene::front::parse;
+use qrt::scene::syntax::Report;
 use std::fmt::Write as _;
 
 type Point = [f64; 3];

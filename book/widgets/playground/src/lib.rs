@@ -17,8 +17,8 @@
 mod examples;
 
 use examples::{EXAMPLES, FILES};
-use qrt_core::front::Files;
 use qrt_runtime::playground::{Answer, Playground};
+use qrt_scene::front::Files;
 use std::cell::RefCell;
 
 struct State {

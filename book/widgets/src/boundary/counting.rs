@@ -2,7 +2,7 @@
 
 use super::answer;
 use crate::counting::{self, Asked};
-use qrt_core::scene::Window;
+use qrt_scene::Window;
 
 /// Calls [`counting::angles`].
 #[unsafe(no_mangle)]

@@ -2,7 +2,7 @@
 
 use super::{answer, text};
 use crate::map::{self, Chosen};
-use qrt_core::scene::Map;
+use qrt_scene::Map;
 
 /// Calls [`map::answer`]; `chosen` is 0 for the uniform map, 1 for the cosine map, and anything else for
 /// the map in the input's three lines.

@@ -5,11 +5,11 @@ use crate::compile::{self, Bool, Builder, Real, Role};
 use crate::oracle::paths::{PathFormats, PathNumber, RayNumber as Of};
 use crate::oracle::recording::{PrimaryHit, record, target};
 use crate::oracle::{Channel, Options, Oracle, OracleError, register_of};
-use crate::sampling::PathPoints;
-use crate::scene::Nearest;
 use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
-use crate::valid::ValidScene;
 use qrt_circuit::{RegisterId, Type};
+use qrt_scene::Nearest;
+use qrt_scene::sampling::PathPoints;
+use qrt_scene::valid::ValidScene;
 use std::sync::Mutex;
 
 /// The oracle of a path's numbers, and the registers that hold them.

@@ -1,14 +1,14 @@
-//! The user-defined BSDF: expressions for a value and a map, which [`crate::valid::bsdf`] has
+//! The user-defined BSDF: expressions for a value and a map, which [`qrt_scene::valid::bsdf`] has
 //! checked.
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
 use super::{Sample, Square, Way};
-use crate::expr::{Expr, Variable};
 use crate::tracer::Arith;
 use crate::tracer::compiled::{Angles, Compiled};
 use crate::tracer::vector::{self, Vector};
-use crate::valid::CustomBsdf;
-use crate::valid::bsdf::weight_bound;
+use qrt_scene::expr::{Expr, Variable};
+use qrt_scene::valid::CustomBsdf;
+use qrt_scene::valid::bsdf::weight_bound;
 use std::f64::consts::PI;
 
 /// One surface with a user-defined BSDF, for one depth.

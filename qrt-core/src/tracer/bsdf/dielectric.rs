@@ -6,7 +6,7 @@
 use super::vertex::Scattered;
 use super::{Sample, by_surface};
 use crate::tracer::{Arith, vector};
-use crate::valid::{Scatter, Surface};
+use qrt_scene::valid::{Scatter, Surface};
 
 /// All dielectric surfaces.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use super::vertex::{Vertex, members};
 use crate::tracer::Arith;
 use crate::tracer::vector;
-use crate::valid::Surface;
+use qrt_scene::valid::Surface;
 use std::ops::Range;
 
 /// The surfaces that emit, which have consecutive numbers.

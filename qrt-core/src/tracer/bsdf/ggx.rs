@@ -14,7 +14,7 @@ use super::vertex::{Scattered, to_scene};
 use super::{Mapped, Sample, Square, Way, by_surface};
 use crate::tracer::Arith;
 use crate::tracer::vector::{self, Vector};
-use crate::valid::{Scatter, Surface};
+use qrt_scene::valid::{Scatter, Surface};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// All GGX surfaces: they differ in their tint, the reflectance, and in roughness.

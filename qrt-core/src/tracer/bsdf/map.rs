@@ -1,13 +1,13 @@
 //! The map of a depth, from its sample square to directions. Surfaces use it if they have no map of
 //! their own, or if it replaces theirs.
 
-use crate::expr::Expr;
-use crate::sampling::maps;
-use crate::scene::Map;
 use crate::tracer::Arith;
 use crate::tracer::compiled::Compiled;
 use crate::tracer::sampled::TABLE_BITS;
 use crate::tracer::vector::Vector;
+use qrt_scene::Map;
+use qrt_scene::expr::Expr;
+use qrt_scene::sampling::maps;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A depth's map, the cosine map under `auto`.

@@ -12,10 +12,10 @@
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
 use super::{Sample, Square, Way};
-use crate::scene::{Phong, Rgb};
 use crate::tracer::compiled::integer_power;
 use crate::tracer::vector::{self, Vector};
 use crate::tracer::{Arith, Coordinate, Sampled};
+use qrt_scene::{Phong, Rgb};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// One Phong surface, for one depth. In each channel, diffuse + specular is at most 1.

@@ -9,10 +9,10 @@ mod lights;
 mod references;
 
 use super::*;
-use crate::front::parse;
-use crate::scene::{Material, Phong};
 use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
+use qrt_scene::front::parse;
+use qrt_scene::{Material, Phong};
 use std::f64::consts::{PI, TAU};
 
 /// A surface of `material` on the plane z = 0, with `bits` bits per coordinate through `map`.

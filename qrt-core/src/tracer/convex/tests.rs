@@ -1,7 +1,7 @@
 //! The faces that are found to bound a convex body.
 
 use super::*;
-use crate::valid::Polygon;
+use qrt_scene::valid::Polygon;
 
 const TOLERANCE: f64 = 1.0 / (1_u64 << 22) as f64;
 

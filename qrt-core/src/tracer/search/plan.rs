@@ -1,11 +1,11 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
-use crate::polygons::SAME_PLANE;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
 use crate::tracer::geometry::{EdgeTest, Geometry, Plane};
 use crate::tracer::polygon::edge_test;
 use crate::tracer::ray::Start;
 use glam::DVec3;
+use qrt_scene::polygons::SAME_PLANE;
 
 /// Most pairs of an edge and an outer plane that are compared. Beyond this, all edges are tested.
 const MOST_COMPARED: usize = 1 << 24;

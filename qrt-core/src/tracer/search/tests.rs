@@ -2,12 +2,12 @@
 //! distances, sides, lamps and shadows along thousands of random paths.
 
 use super::*;
-use crate::front::parse;
 use crate::tracer::frame::start;
 use crate::tracer::geometry::NO_PLANE;
 use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
 use glam::DVec3;
+use qrt_scene::front::parse;
 use scenes::scenes;
 use std::fmt::Write;
 

@@ -48,7 +48,7 @@ pub struct LampPath {
 impl ::qrt::core::oracle::paths::PathScene for Lamp {
     type Path = LampPath;
 
-    fn scene() -> &'static ::qrt::core::valid::ValidScene {
+    fn scene() -> &'static ::qrt::scene::valid::ValidScene {
         Lamp::scene()
     }
 
@@ -143,13 +143,13 @@ const _: () = {
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
         };
-        use ::qrt::core::sampling::{
+        use ::qrt::scene::sampling::{
             Axis::{U, V},
             Coordinate,
             Square::{Light, Ray},
         };
         use ::qrt::core::tracer::{Named, Quantity};
-        use ::qrt::runtime::machines::native::{
+        use ::qrt::runtime::path_machines::native::{
             Integers, NativeOracle, Truths, Vectors, block, word,
         };
         impl __Scene {
@@ -461,7 +461,7 @@ const _: () = {
         impl CompiledOracle for __Scene {
             const OUTLINE: &'static Outline = &OUTLINE;
 
-            fn scene() -> &'static ::qrt::core::valid::ValidScene {
+            fn scene() -> &'static ::qrt::scene::valid::ValidScene {
                 __Scene::scene()
             }
 

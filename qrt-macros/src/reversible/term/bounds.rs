@@ -2,7 +2,7 @@
 
 use super::content::{Path, Value};
 use crate::reversible::ir::Format;
-use qrt_core::expr::{Domain, Expr, Interval, Node, Variable, VariableSet};
+use qrt_scene::expr::{Domain, Expr, Interval, Node, Variable, VariableSet};
 
 /// The most parts of the domain that a proof examines before it gives up.
 const PARTS: usize = 2048;

@@ -3,7 +3,7 @@
 //! A subtraction removes an equal addition from the sum, so a scratch register that was uncomputed
 //! is 0.
 
-use qrt_core::expr::{Expr, Interval};
+use qrt_scene::expr::{Expr, Interval};
 
 /// The comparison `.0 < .1`.
 #[derive(Clone, PartialEq)]

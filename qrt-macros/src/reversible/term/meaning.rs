@@ -9,8 +9,8 @@ use crate::reversible::ir::{
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::{text, type_text};
 use proc_macro2::TokenStream;
-use qrt_core::expr::{Domain, Expr, Interval, MAX_LENGTH, Variable};
-use qrt_core::syntax::codes;
+use qrt_scene::expr::{Domain, Expr, Interval, MAX_LENGTH, Variable};
+use qrt_scene::syntax::codes;
 use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;

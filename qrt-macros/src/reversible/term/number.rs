@@ -7,7 +7,7 @@ use crate::reversible::dim::Linear;
 use crate::reversible::ir::{Bit, Kind, Number, NumberKind, Register};
 use crate::reversible::scope::text;
 use proc_macro2::TokenStream;
-use qrt_core::expr::{Expr, Interval};
+use qrt_scene::expr::{Expr, Interval};
 
 impl Meaning<'_> {
     /// Returns the value of a number of an expression.

@@ -1,7 +1,7 @@
 //! The code that `#[reversible]` writes beside a function that could be a BSDF's term.
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
-use qrt_core::expr::Variable;
+use qrt_scene::expr::Variable;
 use quote::{format_ident, quote};
 use syn::{FnArg, Ident, ItemFn, Pat, Type, Visibility};
 

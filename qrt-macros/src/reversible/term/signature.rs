@@ -6,8 +6,8 @@ use crate::reversible::ir::{Register, Signature};
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::type_text;
 use proc_macro2::TokenStream;
-use qrt_core::expr::{Domain, Interval, Variable};
-use qrt_core::syntax::{codes, nearest};
+use qrt_scene::expr::{Domain, Interval, Variable};
+use qrt_scene::syntax::{codes, nearest};
 use quote::ToTokens;
 use syn::Ident;
 

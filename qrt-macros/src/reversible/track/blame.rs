@@ -3,7 +3,7 @@
 use crate::reversible::problem::Problems;
 use crate::reversible::scope::{begin, text};
 use proc_macro2::TokenStream;
-use qrt_core::syntax::codes;
+use qrt_scene::syntax::codes;
 use quote::ToTokens;
 use std::collections::BTreeSet;
 use std::rc::Rc;

@@ -135,7 +135,7 @@ fn whenever_the_power_is_cut_the_render_goes_on_to_the_same_bytes() {
         job(&folder, false).unwrap();
         watched.done().len()
     };
-    let mut draw = crate::random::Stream::new(0, 0, 0, 0);
+    let mut draw = qrt_counting::random::Stream::new(0, 0, 0, 0);
     let mut resumed = 0;
     for _ in 0..100 {
         let folder = Scratch::new();

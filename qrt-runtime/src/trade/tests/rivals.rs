@@ -6,8 +6,8 @@ use super::super::{Setting, Sweep};
 use super::{LIT, scene};
 use crate::sample::spread;
 use crate::workers::Workers;
-use qrt_core::scene::Sequence;
-use qrt_core::valid::ValidScene;
+use qrt_scene::Sequence;
+use qrt_scene::valid::ValidScene;
 
 /// A scene with two small lamps, out of sight and sampled.
 fn lit() -> String {

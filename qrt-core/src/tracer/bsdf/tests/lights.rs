@@ -2,11 +2,11 @@
 //! of a ray that meets that point add up to 1, for every surface and all positions of both.
 
 use super::{Direction, Textbook, VIEWERS, assert_all_that_scatter, at, dot, matte, microfacets};
-use crate::front::parse;
 use crate::tracer::bsdf::Vertex;
 use crate::tracer::lights::{LightStage, Towards};
 use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
+use qrt_scene::front::parse;
 use std::f64::consts::PI;
 
 /// A surface on the plane z = 0 with a lamp of two parts above it, sampled by `lights`.

@@ -4,7 +4,7 @@
 
 mod evaluate;
 #[allow(dead_code, reason = "compute has no operations in place")]
-#[path = "../../../../../qrt-runtime/src/machines/fixed/tests/maker.rs"]
+#[path = "../../../../../qrt-machines/src/fixed/tests/maker.rs"]
 mod maker;
 
 use super::*;
@@ -31,7 +31,7 @@ fn dark(id: u32) -> &'static Oracle {
     static MADE: [OnceLock<Oracle>; 41] = [const { OnceLock::new() }; 41];
     MADE[id as usize].get_or_init(|| {
         let text = SCENE.replace("BITS", &id.to_string());
-        let scene = qrt_core::front::parse(&text, "dark.yaml", &[], "".as_ref());
+        let scene = qrt_scene::front::parse(&text, "dark.yaml", &[], "".as_ref());
         let scene = scene.unwrap_or_else(|report| panic!("{report}")).valid;
         Oracle::rgb(&scene, Options::default()).unwrap()
     })

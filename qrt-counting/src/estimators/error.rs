@@ -1,0 +1,50 @@
+//! Errors of estimators: invalid settings and problems.
+
+use super::MAX_ITERATIONS;
+use crate::CountingError;
+use qrt_scene::Estimator;
+
+/// An error of an estimator or its device.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EstimatorError {
+    /// An error of quantum counting.
+    #[error(transparent)]
+    Counting(#[from] CountingError),
+    /// The settings allow no query.
+    #[error("an estimator needs at least one query")]
+    NoQueries,
+    /// The requested error is not in (0, 1).
+    #[error("an error of {0} is not between 0 and 1")]
+    AskedError(f64),
+    /// The requested confidence is not in (0, 1).
+    #[error("a confidence of {0} is not between 0 and 1")]
+    Confidence(f64),
+    /// A probability of noise that is not in [0, 1].
+    #[error("noise with probability {0}; a probability is in 0..=1")]
+    Noise(f64),
+    /// More Grover iterations between preparation and measurement than the device can distinguish.
+    #[error("{0} Grover iterations before a measurement; at most {MAX_ITERATIONS}")]
+    TooManyIterations(u64),
+    /// An error of a user-defined estimator, with its message.
+    #[error("{0}")]
+    Own(&'static str),
+    /// A reference of the shifted circuit that is not in [0, 1].
+    #[error("a reference of {0} is not in [0, 1]")]
+    Reference(f64),
+    /// Strata of the comparator, requested from an estimator that counts only the whole.
+    #[error(
+        "{strata} strata, and the estimator `{estimator}` counts the whole comparator at once: choose \
+         `adaptive-bayes` or `random-depth`, or `counting.strata=1`"
+    )]
+    Strata {
+        /// The estimator.
+        estimator: Estimator,
+        /// The requested number of strata.
+        strata: u32,
+    },
+    /// A stratum that the device cannot count: it lacks the distribution of good indices over the
+    /// comparator, or does not have this stratum.
+    #[error("this device cannot count strata of its comparator one by one")]
+    NotByStrata,
+}

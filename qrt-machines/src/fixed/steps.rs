@@ -1,0 +1,250 @@
+//! Steps, to which a program is compiled before it runs.
+
+use super::arith::{Arith, Wrap};
+use super::lane::{Kind, LANES, Lane, Row, Slot, Slots};
+use super::product::Product;
+use super::quotient::Quotient;
+use crate::Span;
+use std::ops::Range;
+
+/// One step, with its operands' and targets' places among the slots of their kinds.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    Truth(Arith<u8>),
+    Short(Arith<i16>),
+    Int(Arith<i32>),
+    Long(Arith<i64>),
+    /// `t = a`, cut to `wrap` bits.
+    Cast {
+        from: (Kind, u32),
+        to: (Kind, u32),
+        wrap: Wrap<i64>,
+    },
+    Product(Product),
+    Quotient(Quotient),
+    /// `t = (a ^ flip_a) & (b ^ flip_b)`
+    And {
+        a: (u32, bool),
+        b: (u32, bool),
+        t: u32,
+    },
+    /// `t = a ^ b ^ flip`
+    Xor {
+        a: u32,
+        b: u32,
+        flip: bool,
+        t: u32,
+    },
+    /// The truth at an Int address, in a table of 32-bit words.
+    TruthTable {
+        address: u32,
+        table: Box<[u32]>,
+        t: u32,
+    },
+    /// An Int from truths: for each truth its slot, its place in the Int, and whether it is
+    /// negated.
+    Address {
+        bits: Box<[(u32, u32, bool)]>,
+        t: u32,
+    },
+}
+
+/// A value that a step reads or computes: its kind, and its place.
+pub(super) struct Seen<'a> {
+    pub(super) kind: Kind,
+    pub(super) place: &'a mut u32,
+    pub(super) computed: bool,
+}
+
+impl<'a> Seen<'a> {
+    pub(super) fn read(kind: Kind, place: &'a mut u32) -> Self {
+        Self {
+            kind,
+            place,
+            computed: false,
+        }
+    }
+
+    pub(super) fn computed(kind: Kind, place: &'a mut u32) -> Self {
+        Self {
+            kind,
+            place,
+            computed: true,
+        }
+    }
+}
+
+/// The input of a block of states.
+pub(super) struct Block<'a> {
+    pub(super) inputs: &'a [&'a [u64]],
+    pub(super) spans: &'a [Span<'a>],
+    /// By input: `first`, if lane l holds `first ^ (l mod 2^k)`, with the k of
+    /// [`super::pattern_bits`].
+    pub(super) runs: Vec<Option<u64>>,
+}
+
+impl Block<'_> {
+    /// Returns the content of an input register. The lanes after the last given one hold the same
+    /// as that.
+    #[inline(always)]
+    pub(super) fn input(&self, input: u32, lane: usize) -> u64 {
+        let lanes = self.inputs[input as usize];
+        lanes.get(lane).or(lanes.last()).copied().unwrap_or(0)
+    }
+
+    /// Calls `each` with the lanes and the parameters of every span; the last one takes all lanes
+    /// that remain.
+    #[inline(always)]
+    pub(super) fn each_span(&self, mut each: impl FnMut(Range<usize>, &[u64])) {
+        let mut first = 0;
+        for (place, span) in self.spans.iter().enumerate() {
+            let last = place + 1 == self.spans.len();
+            let end = if last { LANES } else { first + span.lanes };
+            each(first..end.min(LANES), span.parameters);
+            first = end.min(LANES);
+        }
+    }
+}
+
+/// Spare rows, in which steps compute results before these take their slots.
+#[derive(Clone, Debug)]
+pub(super) struct Spares {
+    pub(super) truth: [Slot<u8>; 2],
+    pub(super) short: Slot<i16>,
+    pub(super) int: Slot<i32>,
+    pub(super) long: Slot<i64>,
+}
+
+/// Evaluates `$body` with `$row` a spare of kind `$kind` and its lanes' type `$K`, then swaps it
+/// into `$t`.
+macro_rules! into {
+    (($kind:expr, $t:expr), $slots:ident, $spares:ident, |$row:ident: $K:ident| $body:expr) => {
+        match $kind {
+            Kind::Truth => into!(@ u8, $t, $slots, $spares.truth[0], $row, $K, $body),
+            Kind::Short => into!(@ i16, $t, $slots, $spares.short, $row, $K, $body),
+            Kind::Int => into!(@ i32, $t, $slots, $spares.int, $row, $K, $body),
+            Kind::Long => into!(@ i64, $t, $slots, $spares.long, $row, $K, $body),
+        }
+    };
+    (@ $type:ident, $t:expr, $slots:ident, $spare:expr, $row:ident, $K:ident, $body:expr) => {{
+        type $K = $type;
+        let $row = &mut $spare;
+        $body;
+        std::mem::swap($row, &mut $K::rows_mut($slots)[$t as usize]);
+    }};
+}
+
+#[inline(always)]
+fn cast<A: Lane, T: Lane>(
+    slots: &Slots,
+    a: u32,
+    t: &mut Row<T>,
+    wrap: Wrap<i64>,
+    f: impl Fn(A) -> T,
+) {
+    let wrap = Wrap {
+        mask: T::cut(wrap.mask),
+        half: T::cut(wrap.half),
+    };
+    for (t, a) in t.0.iter_mut().zip(&A::rows(slots)[a as usize].0) {
+        *t = wrap.of(f(*a));
+    }
+}
+
+impl Step {
+    /// Runs the step on all lanes.
+    #[inline(always)]
+    pub(super) fn run(&self, slots: &mut Slots, spares: &mut Spares, block: &Block<'_>) {
+        let [truth, other] = &mut spares.truth;
+        match *self {
+            Self::Truth(ref arith) => arith.run(slots, other, truth, block),
+            Self::Short(ref arith) => arith.run(slots, &mut spares.short, truth, block),
+            Self::Int(ref arith) => arith.run(slots, &mut spares.int, truth, block),
+            Self::Long(ref arith) => arith.run(slots, &mut spares.long, truth, block),
+            Self::Cast {
+                from: (from, a),
+                to: (to, t),
+                wrap,
+            } => into!((to, t), slots, spares, |row: K| match from {
+                Kind::Truth => cast::<u8, K>(slots, a, row, wrap, |a| a as K),
+                Kind::Short => cast::<i16, K>(slots, a, row, wrap, |a| a as K),
+                Kind::Int => cast::<i32, K>(slots, a, row, wrap, |a| a as K),
+                Kind::Long => cast::<i64, K>(slots, a, row, wrap, |a| a as K),
+            }),
+            Self::Product(ref product) => product.run(slots, spares),
+            Self::Quotient(ref quotient) => quotient.run(slots, spares),
+            Self::And { a, b, t } => {
+                let (flip_a, flip_b) = (u8::from(a.1), u8::from(b.1));
+                let all = &slots.truths;
+                super::compute::rows(truth, &all[a.0 as usize], &all[b.0 as usize], |a, b| {
+                    (a ^ flip_a) & (b ^ flip_b)
+                });
+                std::mem::swap(truth, &mut slots.truths[t as usize]);
+            }
+            Self::Xor { a, b, flip, t } => {
+                let flip = u8::from(flip);
+                let all = &slots.truths;
+                super::compute::rows(truth, &all[a as usize], &all[b as usize], |a, b| {
+                    a ^ b ^ flip
+                });
+                std::mem::swap(truth, &mut slots.truths[t as usize]);
+            }
+            Self::TruthTable {
+                address,
+                ref table,
+                t,
+            } => {
+                super::table::look_up_truth(slots, truth, address, table);
+                std::mem::swap(truth, &mut slots.truths[t as usize]);
+            }
+            Self::Address { ref bits, t } => {
+                let row = &mut spares.int;
+                row.0.fill(0);
+                for (truth, place, flip) in bits {
+                    let flip = u8::from(*flip);
+                    let truths = &slots.truths[*truth as usize].0;
+                    for (t, truth) in row.0.iter_mut().zip(truths) {
+                        *t |= i32::from(truth ^ flip) << place;
+                    }
+                }
+                std::mem::swap(row, &mut slots.ints[t as usize]);
+            }
+        }
+    }
+
+    /// Calls `see` on every value that the step reads or computes.
+    pub(super) fn visit(&mut self, mut see: impl FnMut(Seen<'_>)) {
+        match self {
+            Self::Truth(arith) => arith.visit(&mut see, Kind::Truth),
+            Self::Short(arith) => arith.visit(&mut see, Kind::Short),
+            Self::Int(arith) => arith.visit(&mut see, Kind::Int),
+            Self::Long(arith) => arith.visit(&mut see, Kind::Long),
+            Self::Cast { from, to, .. } => {
+                see(Seen::read(from.0, &mut from.1));
+                see(Seen::computed(to.0, &mut to.1));
+            }
+            Self::Product(product) => product.visit(&mut see),
+            Self::Quotient(quotient) => quotient.visit(&mut see),
+            Self::And { a, b, t } => {
+                see(Seen::read(Kind::Truth, &mut a.0));
+                see(Seen::read(Kind::Truth, &mut b.0));
+                see(Seen::computed(Kind::Truth, t));
+            }
+            Self::Xor { a, b, t, .. } => {
+                see(Seen::read(Kind::Truth, a));
+                see(Seen::read(Kind::Truth, b));
+                see(Seen::computed(Kind::Truth, t));
+            }
+            Self::TruthTable { address, t, .. } => {
+                see(Seen::read(Kind::Int, address));
+                see(Seen::computed(Kind::Truth, t));
+            }
+            Self::Address { bits, t } => {
+                for (truth, _, _) in bits {
+                    see(Seen::read(Kind::Truth, truth));
+                }
+                see(Seen::computed(Kind::Int, t));
+            }
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Machines that run reversible programs and circuits, without rays.
+//!
+//! Each machine executes what [`qrt_circuit`] defines, and shares no code with the others:
+//!
+//! * [`Fixed`] evaluates a program operation by operation on lanes of integers;
+//! * [`Gates`] executes a circuit gate by gate on lanes of bits, one row a qubit;
+//! * [`State`] runs code over [`qrt_circuit::Machine`] on one basis state, by the operations'
+//!   definition, and checks what is undone;
+//! * [`statevector`] follows amplitudes, for circuits with Hadamards and rotations.
+//!
+//! [`run`] runs a routine on the first three. `qrt-runtime` builds the machines that trace a scene's
+//! paths upon these.
+//!
+//! ```
+//! use qrt_circuit::format::{Reg, UInt};
+//! use qrt_circuit::{Machine, Recorder, Style, When};
+//! use qrt_machines::run;
+//!
+//! let mut recorder = Recorder::new(Style::InPlace);
+//! let a: Reg<_, UInt<4>> = Reg::input(&mut recorder, "a");
+//! let mut b: Reg<_, UInt<4>> = Reg::input(&mut recorder, "b");
+//! recorder.add_into(b.register_mut(), a.word().into(), false, When::Always);
+//! assert_eq!(run::on_gates(&recorder.finish(), &[[3, 4]])?, [[3, 7]]);
+//! # Ok::<(), run::RunError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+
+mod fixed;
+mod gates;
+mod instructions;
+pub mod masks;
+pub mod run;
+mod span;
+mod state;
+pub mod statevector;
+mod transpose;
+
+pub use fixed::{Extremes, Fixed, Lanes, contents};
+pub use gates::{Dirty, Gates, InvalidGate, Queue, Rows, Template};
+pub use instructions::{InstructionSet, InstructionsError, at_256_bits};
+pub use span::{Span, part_of_spans};
+pub use state::{State, Unclean};

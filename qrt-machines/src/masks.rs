@@ -1,0 +1,60 @@
+//! Truth values of lanes as the bits of a number: the first lane is the lowest bit.
+
+use pulp::Simd;
+use pulp::bytemuck::{self, NoUninit};
+
+/// Returns the lanes in which `mask` is true.
+#[inline(always)]
+pub fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(v3) = same(&simd) {
+        let v3: &pulp::x86::V3 = v3;
+        if let Some(mask) = same(&mask) {
+            let mask: &pulp::m64x4 = mask;
+            return v3.avx._mm256_movemask_pd(bytemuck::cast(*mask)) as u32;
+        }
+    }
+    let _ = simd;
+    short(&mask).unwrap_or_else(|| {
+        let lanes: &[u64] = bytemuck::cast_slice(std::slice::from_ref(&mask));
+        let flags = lanes.iter().enumerate();
+        flags.fold(0, |bits, (lane, flag)| bits | (flag & 1 << lane) as u32)
+    })
+}
+
+/// Returns the single-precision lanes in which `mask` is true.
+#[inline(always)]
+pub fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(v3) = same(&simd) {
+        let v3: &pulp::x86::V3 = v3;
+        if let Some(mask) = same(&mask) {
+            let mask: &pulp::m32x8 = mask;
+            return v3.avx._mm256_movemask_ps(bytemuck::cast(*mask)) as u32;
+        }
+    }
+    let _ = simd;
+    short(&mask).unwrap_or_else(|| {
+        let lanes: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&mask));
+        let flags = lanes.iter().enumerate();
+        flags.fold(0, |bits, (lane, flag)| bits | flag & 1 << lane)
+    })
+}
+
+/// Returns `value` if it has type `B`, which is known at compile time.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
+    (value as &dyn std::any::Any).downcast_ref()
+}
+
+/// Returns the bits of a mask that has one bit for each lane: a mask register, or the truth value
+/// of a single lane.
+#[inline(always)]
+fn short<M: NoUninit>(mask: &M) -> Option<u32> {
+    match *bytemuck::bytes_of(mask) {
+        [bits] => Some(u32::from(bits)),
+        [low, high] => Some(u32::from(u16::from_le_bytes([low, high]))),
+        _ => None,
+    }
+}

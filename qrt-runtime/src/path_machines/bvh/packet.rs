@@ -1,0 +1,160 @@
+//! A few faces that are tried together.
+
+use super::FACES;
+use super::approach::{Lines, MOST_RAYS};
+use super::walk::Search;
+use crate::path_machines::lanes::{Lanes, lanes};
+use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
+use qrt_machines::masks::bits;
+
+/// Largest number of edges of a face.
+const EDGES: usize = 4;
+
+/// Faces with one main axis: constants side by side, in the order in which they are read. An
+/// absent face has a plane that no ray crosses.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Packet {
+    /// The plane's form and offset.
+    form: [[f64; FACES]; 2],
+    offset: [f64; FACES],
+    plane: [u64; FACES],
+    /// Per edge, `a x + b y >= low`.
+    edges: [[[f64; FACES]; 3]; EDGES],
+    /// The faces' places in [`Geometry::faces`].
+    rank: [u32; FACES],
+    /// Number of edges of the face that has the most.
+    most_edges: u32,
+}
+
+/// Returns the plane of each face, in the order of [`Geometry::faces`].
+pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
+    let mut planes = vec![0; geometry.faces.len()];
+    for (number, plane) in geometry.planes.iter().enumerate() {
+        planes[plane.faces.clone()].fill(number as u32);
+    }
+    planes
+}
+
+impl Packet {
+    /// Creates the packet of the faces `ranks`, at most [`FACES`], which share a main axis.
+    pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
+        let everywhere = [[0.0; FACES], [0.0; FACES], [f64::NEG_INFINITY; FACES]];
+        let mut packet = Self {
+            // A face whose cos_theta is NaN is never ahead.
+            form: [[f64::NAN; FACES]; 2],
+            offset: [0.0; FACES],
+            edges: [everywhere; EDGES],
+            most_edges: 0,
+            plane: [u64::MAX; FACES],
+            rank: [u32::MAX; FACES],
+        };
+        for (lane, &rank) in ranks.iter().enumerate() {
+            let number = planes[rank as usize];
+            let plane = &geometry.planes[number as usize];
+            packet.form[0][lane] = plane.form[0];
+            packet.form[1][lane] = plane.form[1];
+            packet.offset[lane] = plane.offset;
+            packet.plane[lane] = u64::from(number);
+            packet.rank[lane] = rank;
+            let mut edge = 0;
+            for edge_test in &geometry.faces[rank as usize].edge_tests {
+                // The value of the negated form is exactly the negated value, so one kind of
+                // comparison is enough.
+                let sides = [(1.0, edge_test.low), (-1.0, -edge_test.high)];
+                for (sign, low) in sides.into_iter().filter(|(_, low)| low.is_finite()) {
+                    let constants = [sign * edge_test.form[0], sign * edge_test.form[1], low];
+                    for (column, constant) in packet.edges[edge].iter_mut().zip(constants) {
+                        column[lane] = constant;
+                    }
+                    edge += 1;
+                }
+            }
+            packet.most_edges = packet.most_edges.max(edge as u32);
+        }
+        packet
+    }
+
+    /// Passes to `search` the faces that the ray in `lane` meets within its limit, and returns true
+    /// as soon as the search needs no more. `axis` is the faces' main axis.
+    #[inline(always)]
+    pub(super) fn show<S: pulp::Simd>(
+        &self,
+        cx: &mut Lanes<'_, S, 1>,
+        axis: u8,
+        lines: &Lines,
+        lane: usize,
+        search: &mut impl Search,
+    ) -> bool {
+        for first in (0..FACES).step_by(S::F64_LANES) {
+            let (hit, distances) = self.distances(cx, axis, (lines, lane), search.limit(), first);
+            let mut left = bits(cx.simd, hit) & ((1 << FACES) - 1);
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                if search.meet(self.rank[first + lane], lanes::<_, f64>(&distances)[lane]) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Returns the faces that the ray in `lane` meets within `limit`, beginning at face `first`,
+    /// and their distances.
+    #[inline(always)]
+    fn distances<S: pulp::Simd>(
+        &self,
+        cx: &mut Lanes<'_, S, 1>,
+        axis: u8,
+        (lines, lane): (&Lines, usize),
+        limit: f64,
+        first: usize,
+    ) -> (S::m64s, [S::f64s; 1]) {
+        let simd = cx.simd;
+        // If a register has more lanes than there are faces, the remaining lanes have no meaning.
+        let real = |column: &[f64; FACES]| {
+            if S::F64_LANES > FACES {
+                [simd.partial_load_f64s(column)]
+            } else {
+                [S::as_simd_f64s(column).0[first / S::F64_LANES]]
+            }
+        };
+        let index = |column: &[u64; FACES]| {
+            if S::F64_LANES > FACES {
+                [simd.partial_load_u64s(column)]
+            } else {
+                [S::as_simd_u64s(column).0[first / S::F64_LANES]]
+            }
+        };
+        let axis = usize::from(axis) % 3;
+        let lane = lane % MOST_RAYS;
+        let (o, d) = (&lines.origin, &lines.direction);
+        let ray = AxisPermuted::<Lanes<'_, S, 1>> {
+            origin: cx.real(o[axis][lane]),
+            direction: cx.real(d[axis][lane]),
+            origin_across: [cx.real(o[axis + 1][lane]), cx.real(o[axis + 2][lane])],
+            direction_across: [cx.real(d[axis + 1][lane]), cx.real(d[axis + 2][lane])],
+            t_max: f64::INFINITY,
+        };
+        let form = [real(&self.form[0]), real(&self.form[1])];
+        let crossing = cross(cx, form, real(&self.offset), &ray);
+        let limit = cx.real(limit);
+        let near = cx.less_equal(crossing.distance, limit);
+        let mut hit = cx.and(crossing.ahead, near);
+        let left = [cx
+            .simd
+            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(lines.from[lane]))];
+        let other = cx.not(left);
+        hit = cx.and(hit, other);
+        // Triangles are by far the most frequent, and a branch costs more than an edge.
+        let count = if self.most_edges > 3 { EDGES } else { 3 };
+        for edge in &self.edges[..count] {
+            let form = [real(&edge[0]), real(&edge[1])];
+            let value = weighted(cx, form, crossing.point);
+            let inside = cx.less_equal(real(&edge[2]), value);
+            hit = cx.and(hit, inside);
+        }
+        (hit[0], crossing.distance)
+    }
+}

@@ -1,0 +1,157 @@
+//! Runs blocks of paths through the gates: compute, read, uncompute, check every qubit.
+
+use super::parts::Streamed;
+use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
+use qrt_circuit::lower::{self, Templates};
+use qrt_circuit::{Qubit, Word};
+use qrt_machines::{Gates, Queue, Rows, Template};
+use qrt_machines::{Span, part_of_spans};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Number of gates of a streamed circuit that run together.
+const AT_ONCE: usize = 1 << 14;
+
+impl OracleMachine {
+    /// Runs a block's paths, divided among `rows`.
+    pub(super) fn run_gates(
+        &self,
+        gates: &Gates,
+        parts: &OracleCircuits,
+        (rows, templates): &mut (Vec<Rows>, Templates<Template>),
+        block: &mut OracleBlock,
+        (spans, cancel): (&[Span<'_>], Option<&AtomicBool>),
+    ) -> Result<(), Defect> {
+        let lanes = gates.lanes();
+        let count = block.ids.len();
+        let rows = &mut rows[..count.div_ceil(lanes)];
+        let id = parts.register(self.oracle.id).to_vec();
+        let nearest = self.oracle.nearest;
+        let hit = nearest.map_or(Vec::new(), |hit| parts.register(hit).to_vec());
+        let mut hits = block.hits.chunks(lanes);
+        let shares = rows.iter_mut().zip(block.ids.chunks(lanes)).enumerate();
+        for (number, (rows, ids)) in shares {
+            rows.set(&id, ids);
+            rows.set(&hit, hits.next().unwrap_or_default());
+            let first = number * lanes;
+            rows.set_parameters(&part_of_spans(spans, first..first + ids.len()));
+        }
+        let values = &mut block.values;
+        let read = |rows: &[Rows]| {
+            for (output, values) in self.outputs.iter().zip(values) {
+                let Some(word) = word_of(*output) else {
+                    continue;
+                };
+                let qubits = parts.qubits(*output);
+                // `qubits` are those of the word alone, so it begins at offset 0.
+                let alone = Word { offset: 0, ..word };
+                for (rows, values) in rows.iter().zip(values[..count].chunks_mut(lanes)) {
+                    let mut bits = vec![0; values.len()];
+                    rows.get(&qubits, &mut bits);
+                    for (value, bits) in values.iter_mut().zip(&bits) {
+                        *value = alone.read(*bits);
+                    }
+                }
+            }
+        };
+        match &parts.streamed {
+            None => {
+                let run =
+                    |part, rows: &mut [Rows]| rows.iter_mut().for_each(|r| gates.run(part, r));
+                run(0, rows);
+                read(rows);
+                run(1 + parts.flips.len(), rows);
+            }
+            Some(streamed) => streamed.run(cancel, gates, (rows, templates), read)?,
+        }
+        let mut hits = block.hits.chunks(lanes);
+        let shares = rows.iter().zip(block.ids.chunks(lanes)).enumerate();
+        for (number, (rows, ids)) in shares {
+            let inputs = [(&id[..], ids), (&hit, hits.next().unwrap_or_default())];
+            let path = |lane| (block.pixel_of(number * lanes + lane), ids[lane]);
+            check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))?;
+        }
+        Ok(())
+    }
+}
+
+impl Streamed {
+    /// Lowers the program and runs its gates, some at a time. Calls `read` between compute and
+    /// uncompute.
+    fn run(
+        &self,
+        cancel: Option<&AtomicBool>,
+        gates: &Gates,
+        (rows, templates): (&mut [Rows], &mut Templates<Template>),
+        read: impl FnOnce(&[Rows]),
+    ) -> Result<(), Defect> {
+        let mut queue = Queue::default();
+        let mut read = Some(read);
+        let mut step = 0;
+        let run = |queue: &mut Queue, rows: &mut [Rows]| {
+            if cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+                return Err(Defect::Cancelled);
+            }
+            gates.run_queued(queue, rows);
+            Ok(())
+        };
+        lower::try_each_template(
+            &self.program,
+            templates,
+            |own, qubits| {
+                let template = gates.template(own, qubits)?;
+                let bytes = template.bytes();
+                Ok((template, bytes))
+            },
+            |template, qubits| {
+                if step == self.cut {
+                    run(&mut queue, rows)?;
+                    if let Some(read) = read.take() {
+                        read(rows);
+                    }
+                }
+                gates.queue(template, qubits, &mut queue);
+                if queue.len() >= AT_ONCE {
+                    run(&mut queue, rows)?;
+                }
+                step += 1;
+                Ok::<(), Defect>(())
+            },
+        )?;
+        run(&mut queue, rows)
+    }
+}
+
+/// Checks that after uncompute all qubits are zero again, except those of `inputs`, which must hold
+/// their old contents. `path` returns the pixel and the path of a lane, and `name` the register of
+/// a qubit.
+pub(in crate::path_machines) fn check(
+    rows: &Rows,
+    inputs: &[(&[Qubit], &[u64])],
+    path: impl Fn(usize) -> ([u32; 2], u64),
+    name: impl Fn(Qubit) -> String,
+) -> Result<(), Defect> {
+    let held: Vec<Qubit> = inputs
+        .iter()
+        .flat_map(|(qubits, _)| *qubits)
+        .copied()
+        .collect();
+    let count = inputs.first().map_or(0, |(_, contents)| contents.len());
+    if let Some(dirty) = rows.dirty(&held, count) {
+        let (pixel, id) = path(dirty.lane);
+        return Err(Defect::Dirty {
+            dirty,
+            pixel,
+            id,
+            register: name(dirty.qubit),
+        });
+    }
+    let mut bits = vec![0; count];
+    for (qubits, contents) in inputs {
+        rows.get(qubits, &mut bits);
+        if let Some(lane) = bits.iter().zip(*contents).position(|(is, was)| is != was) {
+            let (pixel, id) = path(lane);
+            return Err(Defect::Id { pixel, id });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! Convex polygons in space: which of them overlap on a plane, and which enclose a solid.
+//!
+//! Corners are in units in which the scene is about one unit large. The constants of this module
+//! are rounding errors of numbers of that size.
+
+mod apart;
+mod overlap;
+mod plane;
+mod solid;
+
+pub use overlap::{Outlines, fill_once, overlap};
+pub use plane::{Overlap, first_overlap};
+pub use solid::{Solid, solids};
+
+use glam::DVec3;
+
+/// Planes nearer than this to each other (in coefficients and offset) count as one.
+pub const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
+
+/// Returns the centre of the box around `points`, and the power of two that scales the box's
+/// greatest half extent into `[1/2, 1)`. Returns the origin and 1 if all points coincide, or there
+/// are none.
+pub fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, f64) {
+    let (low, high) = bounds(points);
+    let extent = (high * 0.5 - low * 0.5).max_element();
+    // Without points the extent is negative infinity.
+    let has_extent = extent > 0.0;
+    if !has_extent {
+        return (DVec3::ZERO, 1.0);
+    }
+    // extent = m 2^e with m in [1/2, 1): 2^-e takes it to [1/2, 1).
+    let (_, exponent) = libm::frexp(extent);
+    (low * 0.5 + high * 0.5, libm::ldexp(1.0, -exponent))
+}
+
+/// Returns the axis of the greatest component of a normal. Of components that only rounding makes
+/// unequal it is the first, so that polygons of one plane have one main axis.
+pub fn main_axis(normal: DVec3) -> usize {
+    let size = normal.abs();
+    let least = size.max_element() * (1.0 - 4.0 * SAME_PLANE);
+    (0..3).find(|&axis| size[axis] >= least).unwrap_or(2)
+}
+
+/// The least and the greatest coordinates of `points`.
+pub fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(*p), high.max(*p))
+    })
+}

@@ -1,0 +1,618 @@
+//! The scene as its author wrote it: plain data, one definition for YAML and macro.
+//!
+//! Each part is defined once, by `record!`, `variant!` or `keyword!`: its type, keys, defaults and
+//! ranges, and with them the decoder, the printer and the JSON Schema. Nothing here is checked
+//! against anything else: [`crate::valid::validate`] turns a [`Scene`] into the
+//! [`crate::valid::ValidScene`] that everything downstream demands.
+
+mod basis;
+mod builder;
+pub(crate) mod decode;
+pub(crate) mod finalize;
+pub mod meshes;
+mod record;
+#[cfg(feature = "serde")]
+mod serde;
+pub(crate) mod shape;
+pub mod text;
+mod uncompute;
+
+use crate::syntax::tree::{Node, Span, Value};
+use crate::syntax::{Datum, Place, Problems};
+pub use basis::Basis;
+pub use builder::SceneBuilder;
+use glam::DVec3;
+pub use qrt_circuit::quantum::Window;
+use record::{keyword, record, variant};
+use shape::{
+    Array, AutoOr, Channels, Expression, LARGEST, List, Maybe, Named, Number, Part, Text, number,
+    part, point, whole, word,
+};
+use std::sync::Arc;
+use text::{Data, Fingerprint};
+use uncompute::UncomputeShape;
+pub use uncompute::{Again, PARTS};
+pub use uncompute::{Uncompute, UncomputedParts};
+
+/// Maximum number of bits of a path index. Path counts up to `2^52` and their sums stay exact in
+/// f64.
+pub const MAX_PATH_BITS: u32 = 52;
+
+/// Linear RGB.
+pub type Rgb = [f64; 3];
+
+const REFLECTANCE: Array<Number, 3> =
+    Array(number(0.0, 1.0).or(|value, range| Datum::NotAlbedo { value, range }));
+const RADIANCE: Array<Number, 3> =
+    Array(number(0.0, LARGEST).or(|value, range| Datum::NotRadiance { value, range }));
+const LENGTH: Number = number(0.0, LARGEST).above();
+
+record! {
+    /// A scene of qrt: what is seen, and how its circuit traces and counts it.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Scene = "the scene", finalize = finalize::scene;
+    /// The scene's name. A picture's metadata repeat it.
+    pub name: String = Text;
+    /// The camera. Right-handed: right is forward x up, film rows go from the top.
+    pub camera: Camera = part::<Camera>();
+    /// The size of the picture.
+    pub film: Film = part::<Film>();
+    /// The materials, by names of your own: what surfaces do to light.
+    pub materials: Vec<(String, Material)> = Named(part::<Material>());
+    /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
+    pub geometry: Vec<Geometry> = List {
+        item: part::<Geometry>(), least: 0
+    };
+    /// The paths of a pixel: how many, and how long.
+    pub sampling: Sampling = part::<Sampling>(), or Sampling::default();
+    /// Width of the circuit's fixed-point numbers.
+    pub precision: Precision = part::<Precision>(), or Precision::default();
+    /// The comparator register.
+    pub comparator: Comparator = part::<Comparator>(), or Comparator::default();
+    /// The counting of the good indices.
+    pub counting: Counting = part::<Counting>(), or Counting::default();
+    /// The layout of the circuit.
+    pub circuit: Circuit = part::<Circuit>(), or Circuit::default();
+    /// Asked accuracy, instead of path_bits, precision, comparator and counting.
+    pub accuracy: Option<Accuracy> = Maybe(part::<Accuracy>()), or None;
+    /// Limits on the circuit's cost.
+    pub budget: Option<Budget> = Maybe(part::<Budget>()), or None;
+}
+
+variant! {
+    /// The camera. Right-handed: right is forward x up, film rows go from the top.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Camera = "a camera";
+    /// A pinhole.
+    Perspective(Perspective) = "perspective";
+    /// Parallel rays.
+    Orthographic(Orthographic) = "orthographic";
+}
+
+record! {
+    /// A pinhole.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Perspective = "a perspective camera";
+    /// The pinhole, in scene units.
+    pub eye: DVec3 = point();
+    /// The point at the centre of the film, in scene units.
+    pub target: DVec3 = point();
+    /// A direction that points up in the picture, of any length; default [0, 1, 0].
+    pub up: DVec3 = point(), or DVec3::Y;
+    /// The vertical field of view in degrees.
+    pub vfov: f64 = number(0.0, 180.0).above().below();
+}
+
+record! {
+    /// Parallel rays.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Orthographic = "an orthographic camera";
+    /// The centre of the film, where its rays start, in scene units.
+    pub eye: DVec3 = point();
+    /// A point straight ahead, in scene units.
+    pub target: DVec3 = point();
+    /// A direction that points up in the picture, of any length; default [0, 1, 0].
+    pub up: DVec3 = point(), or DVec3::Y;
+    /// The height of the film in scene units.
+    pub height: f64 = LENGTH;
+}
+
+record! {
+    /// The size of the picture.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Film = "the film";
+    /// Pixels from left to right.
+    pub width: u32 = whole::<u32>(1, 65_536);
+    /// Pixels from top to bottom.
+    pub height: u32 = whole::<u32>(1, 65_536);
+}
+
+variant! {
+    /// The effect of a surface on light.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum Material = "a material";
+    /// Matte, on both sides: albedo / pi.
+    Lambertian(Lambertian) = "lambertian";
+    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian.
+    Emitter(Emitter) = "emitter";
+    /// A perfect mirror, on both sides.
+    Mirror(Mirror) = "mirror";
+    /// Smooth glass with Fresnel reflectance.
+    Dielectric(Dielectric) = "dielectric";
+    /// GGX with Fresnel 1 and separable Smith masking.
+    Ggx(Ggx) = "ggx";
+    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
+    /// direction.
+    Phong(Phong) = "phong";
+    /// The author's own BSDF.
+    Bsdf(Bsdf) = "bsdf";
+}
+
+record! {
+    /// Matte, on both sides: albedo / pi.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Lambertian = "a lambertian material";
+    /// The share of light that is reflected, in linear RGB.
+    pub albedo: Rgb = REFLECTANCE;
+}
+
+record! {
+    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian on both sides.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Emitter = "an emitter";
+    /// The radiance that leaves the front, in linear RGB. The picture's values have the same unit.
+    pub radiance: Rgb = RADIANCE;
+    /// The share of light that is reflected, in linear RGB; default black.
+    pub albedo: Rgb = REFLECTANCE, or [0.0; 3];
+}
+
+record! {
+    /// A perfect mirror, on both sides.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Mirror = "a mirror";
+    /// The share of light that is reflected, in linear RGB.
+    pub reflectance: Rgb = REFLECTANCE;
+}
+
+record! {
+    /// Smooth glass with Fresnel reflectance.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Dielectric = "a dielectric";
+    /// The index of refraction of the side opposite to the normal, relative to the other.
+    pub ior: f64 = number(1e-3, 1e3);
+}
+
+record! {
+    /// GGX with Fresnel 1 and separable Smith masking.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Ggx = "a ggx material";
+    /// Roughness: above 0 (a mirror) and at most 1.
+    pub alpha: f64 = number(0.0, 1.0).above();
+    /// The colour of the reflection, in linear RGB.
+    pub reflectance: Rgb = REFLECTANCE;
+}
+
+record! {
+    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
+    /// direction.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Phong = "a phong material";
+    /// The share kd that is reflected to all sides, in linear RGB.
+    pub diffuse: Rgb = REFLECTANCE;
+    /// The share ks of the highlight, in linear RGB. In each channel, diffuse + specular is at
+    /// most 1.
+    pub specular: Rgb = REFLECTANCE;
+    /// The exponent n: the larger, the narrower the highlight.
+    pub exponent: f64 = number(0.0, 1e6);
+}
+
+record! {
+    /// The author's own BSDF, by expressions.
+    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+    pub struct Bsdf = "a bsdf";
+    /// The map phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
+    pub map: [String; 3] = Array::<_, 3>(Expression);
+    /// `auto` (differentiated), or an expression in u, v that is then checked.
+    pub jacobian: Jacobian = finalize::JacobianShape, or Jacobian::Auto;
+    /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v: one expression (grey) or three
+    /// (red, green, blue).
+    pub value: Vec<String> = Channels;
+    /// The density of the map's directions, per steradian, in cos_i, cos_o, cos_a: 1 over the
+    /// Jacobian, which is checked. With it, lamps can be sampled from here.
+    pub pdf: Option<String> = Maybe(Expression), or None;
+}
+
+/// The source of a map's Jacobian.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Jacobian {
+    /// `|dphi/du x dphi/dv|`, differentiated symbolically.
+    Auto,
+    /// The author's expression.
+    Stated(String),
+}
+
+variant! {
+    /// A primitive or a mesh of them.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum Geometry = "a primitive";
+    /// A convex quadrilateral.
+    Quad(Quad) = "quad";
+    /// A triangle.
+    Triangle(Triangle) = "triangle";
+    /// Triangles and polygons from a Wavefront OBJ file.
+    Mesh(Mesh) = "mesh";
+}
+
+record! {
+    /// A convex quadrilateral; one that is not planar splits along v0-v2.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Quad = "a quad";
+    /// Four points around the outline, in scene units; (v1 - v0) x (v2 - v0) is the front.
+    pub vertices: [DVec3; 4] = Array::<_, 4>(point());
+    /// The name of a material.
+    pub material: String = Text;
+}
+
+record! {
+    /// A triangle.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Triangle = "a triangle";
+    /// Three points, in scene units; (v1 - v0) x (v2 - v0) is the front.
+    pub vertices: [DVec3; 3] = Array::<_, 3>(point());
+    /// The name of a material.
+    pub material: String = Text;
+}
+
+record! {
+    /// A Wavefront OBJ file, scaled, then rotated, then translated.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Mesh = "a mesh";
+    /// The file, relative to the scene's folder.
+    pub obj: String = Text;
+    /// The name of a material for all of it; without one, the MTL file's materials.
+    pub material: Option<String> = Maybe(Text), or None;
+    /// The factor of its size; default 1.
+    pub scale: f64 = LENGTH, or 1.0;
+    /// Degrees about x, then y, then z; default none.
+    pub rotate: DVec3 = point(), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = point(), or DVec3::ZERO;
+}
+
+record! {
+    /// The paths of a pixel.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Sampling = "sampling", finalize = finalize::path_bits;
+    /// The sequence that turns path indices into points.
+    pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
+    /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
+    /// only that.
+    pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
+    /// One entry per ray of a path, the primary ray first; default three.
+    pub depths: Vec<DepthSampling> = List {
+        item: part::<DepthSampling>(), least: 1
+    }, or vec![DepthSampling::of_bits([8, 8]); 3];
+    /// The sampling of lamps at the depths that have `light` bits.
+    pub lights: Lights = word::<Lights>(), or Lights::Auto;
+}
+
+keyword! {
+    /// The sampling of light at a vertex whose surface reflects to more than single directions and
+    /// has a known density. The mean is the same for all.
+    pub enum Lights = "a way to sample lights";
+    /// `next-event` on surfaces where no lamp can weigh more than 1, by interval arithmetic over
+    /// surface and lamp; `mis` elsewhere.
+    Auto = "auto";
+    /// Multiple importance sampling: the point on a lamp, and the ray where it meets one, by the
+    /// balance heuristic.
+    Mis = "mis";
+    /// Next-event estimation: on matte surfaces the point on a lamp alone; what the ray meets does
+    /// not count. Others weigh as under `mis`.
+    NextEvent = "next-event";
+    /// Rays alone, as in the paper.
+    None = "none";
+}
+
+keyword! {
+    /// The sequence that turns path indices into points.
+    pub enum Sequence = "a sequence";
+    /// One digital net over all coordinates, shifted per pixel.
+    DigitalNet = "digital-net";
+    /// The paper's product of a lattice per depth.
+    ProductLattice = "product-lattice";
+}
+
+record! {
+    /// Sampling of one ray.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub struct DepthSampling = "a depth";
+    /// Resolution of the coordinates u and v, in bits.
+    pub bits: [u32; 2] = Array::<_, 2>(whole::<u32>(0, 24));
+    /// The map from the unit square to directions; not for the primary ray.
+    pub map: Map = word::<Map>(), or Map::Auto;
+    /// Resolution, in bits, of the point on a lamp that is connected to the surface which this ray
+    /// leaves; not for the primary ray. Without it no lamp is sampled there.
+    pub light: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 16))), or None;
+}
+
+impl DepthSampling {
+    /// Creates the sampling of a ray with `bits` per coordinate and each material's own map.
+    pub const fn of_bits(bits: [u32; 2]) -> Self {
+        let (map, light) = (Map::Auto, None);
+        Self { bits, map, light }
+    }
+}
+
+/// The use of a unit square of sample coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Square {
+    /// A ray's direction, or the primary ray's place on the pixel.
+    Ray,
+    /// The point on a lamp.
+    Light,
+}
+
+keyword! {
+    /// The map from the unit square to directions.
+    pub enum Map = "a map";
+    /// Each material's own.
+    Auto = "auto";
+    /// Density proportional to the cosine.
+    CosineHemisphere = "cosine-hemisphere";
+    /// Constant density.
+    UniformHemisphere = "uniform-hemisphere";
+}
+
+record! {
+    /// Width of the circuit's fixed-point numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Precision = "precision";
+    /// Bits behind the point; `auto` is 16.
+    pub fraction: Option<u32> = AutoOr(whole::<u32>(4, 30)), or None;
+}
+
+record! {
+    /// The comparator register.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Comparator = "the comparator";
+    /// Its qubits, c: a colour is compared with 2^c thresholds; default 10.
+    pub bits: u32 = whole::<u32>(1, 30), or 10;
+    /// The positions of the comparators, with h = scale / 2^bits.
+    pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
+}
+
+keyword! {
+    /// The positions of the comparators, with h = scale / 2^bits.
+    pub enum ComparatorAt = "a comparator position";
+    /// At (y + 1/2) h.
+    Midpoints = "midpoints";
+    /// At y h, as in the paper.
+    Edges = "edges";
+}
+
+record! {
+    /// The counting of the good indices.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Counting = "counting";
+    /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
+    /// without a phase register may spend up to B (T - 1).
+    pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
+    /// B, the number of runs; default 1.
+    pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
+    /// The window on the phase register of `posterior-mean`; `paper` and `qss` count with the
+    /// rectangular one and `sine` with the sine window, whatever stands here.
+    pub window: Window = word::<Window>(), or Window::Sine;
+    /// The estimator that turns measurements into an amplitude.
+    pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
+    /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
+    /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
+    /// each channel of each pixel from what it measures first. Only `adaptive-bayes` and
+    /// `random-depth` count by strata; under all others `auto` is 1.
+    pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
+    /// Half the width of the interval, in radiance, at which a channel of a pixel is done though
+    /// queries are left; of the luminance where one run gives the colour. Without it, the default,
+    /// all queries are used. Estimators with a phase register have no interval to look at in between.
+    pub error: Option<f64> = Maybe(LENGTH), or None;
+}
+
+impl Counting {
+    /// True if strata of the comparator may be counted one by one.
+    pub fn may_count_strata(&self) -> bool {
+        self.estimator.counts_strata() && self.strata != Some(1)
+    }
+}
+
+impl Estimator {
+    /// True if the estimator can count the strata of the comparator one by one. This requires that
+    /// after every shot it knows the accuracy of each stratum, and can continue with any of them.
+    pub const fn counts_strata(self) -> bool {
+        match self {
+            Self::AdaptiveBayes | Self::RandomDepth => true,
+            Self::Exact
+            | Self::MonteCarlo
+            | Self::Paper
+            | Self::PosteriorMean
+            | Self::Sine
+            | Self::Qss
+            | Self::Mlae
+            | Self::Iqae
+            | Self::Miqae
+            | Self::Chebyshev
+            | Self::Qcoin
+            | Self::AbramsWilliams => false,
+        }
+    }
+
+    /// True if the estimator reads a phase register: it repeatedly runs the circuit of quantum
+    /// counting.
+    pub const fn has_register(self) -> bool {
+        match self {
+            Self::Paper | Self::PosteriorMean | Self::Sine | Self::Qss => true,
+            Self::Exact
+            | Self::MonteCarlo
+            | Self::Mlae
+            | Self::Iqae
+            | Self::Miqae
+            | Self::Chebyshev
+            | Self::RandomDepth
+            | Self::AdaptiveBayes
+            | Self::Qcoin
+            | Self::AbramsWilliams => false,
+        }
+    }
+
+    /// True if the estimator can stop after any shot, by what it knows so far. `exact` makes no
+    /// shots.
+    pub const fn stops_itself(self) -> bool {
+        !self.has_register() && !matches!(self, Self::Exact)
+    }
+
+    /// Returns the window in which the phase register is prepared. `paper`, `qss` and `sine` have a
+    /// window of their own; all others use `asked`, the scene's `counting.window`.
+    pub fn register_window(self, asked: Window) -> Window {
+        match self {
+            Self::Paper | Self::Qss => Window::Rect,
+            Self::Sine => Window::Sine,
+            _ => asked,
+        }
+    }
+}
+
+impl shape::Keyword for Window {
+    const NOUN: &'static str = "a window";
+    const NAMES: &'static [&'static str] = &["rect", "sine"];
+    const DOCS: &'static [&'static str] = &[
+        " Equal amplitudes, as in the paper.",
+        " Amplitudes w_j proportional to sin(pi (j + 1) / (T + 1)).",
+    ];
+    const VALUES: &'static [Self] = &[Self::Rect, Self::Sine];
+}
+
+keyword! {
+    /// The estimator of the amplitude.
+    pub enum Estimator = "an estimator";
+    /// The amplitude itself.
+    Exact = "exact";
+    /// Classical sampling of paths.
+    MonteCarlo = "monte-carlo";
+    /// The paper's: repetitions of counting, maximum likelihood over S.
+    Paper = "paper";
+    /// The posterior mean of the paper's counting.
+    PosteriorMean = "posterior-mean";
+    /// Counting with a sine window.
+    Sine = "sine";
+    /// Adaptive Bayesian estimation.
+    AdaptiveBayes = "adaptive-bayes";
+    /// Random depths.
+    RandomDepth = "random-depth";
+    /// Maximum likelihood amplitude estimation.
+    Mlae = "mlae";
+    /// Iterative amplitude estimation.
+    Iqae = "iqae";
+    /// Modified iterative amplitude estimation.
+    Miqae = "miqae";
+    /// Chebyshev amplitude estimation.
+    Chebyshev = "chebyshev";
+    /// Quantum supersampling.
+    Qss = "qss";
+    /// Quantum coin.
+    Qcoin = "qcoin";
+    /// Abrams and Williams.
+    AbramsWilliams = "abrams-williams";
+}
+
+record! {
+    /// The layout of the circuit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Circuit = "the circuit";
+    /// The uncompute strategy of work registers. Parts that are uncomputed early may be listed, with hyphens between
+    /// them: `plane`, `body`, `search`, `ray`, `shading` and `component` of the tracer; the garbage of
+    /// `tables`, `products` and `quotients`; and `recompute`, which computes cheap values at each use instead
+    /// of keeping them, or `rerun`, which also runs again what these are computed from.
+    pub uncompute: Uncompute = UncomputeShape, or Uncompute::Keep;
+    /// The way to keep the nearest intersection.
+    pub nearest: Nearest = word::<Nearest>(), or Nearest::Running;
+}
+
+keyword! {
+    /// The way to keep the nearest intersection.
+    pub enum Nearest = "a way to keep the nearest hit";
+    /// One record, and a flag per primitive.
+    Running = "running";
+    /// All intersections and nearest records, as in the paper.
+    Paper = "paper";
+}
+
+record! {
+    /// Asked accuracy; qrt chooses the parameters.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Accuracy = "accuracy";
+    /// Of a channel of a pixel, relative to the picture's mean radiance over pixels and channels.
+    pub error: f64 = number(0.0, 1.0).above().below();
+    /// The probability that a channel of a pixel is within the error.
+    pub confidence: f64 = number(0.0, 1.0).above().below();
+}
+
+record! {
+    /// Limits on the circuit's cost; beyond them, an error.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Budget = "the budget";
+    /// Maximum number of qubits at a time.
+    pub qubits: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
+    /// Maximum number of Toffoli gates in one call of the oracle.
+    pub toffoli: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
+}
+
+/// Returns a block with all keys left out, so that each has its default.
+fn of_defaults<T: Part>() -> T {
+    let node = Node {
+        span: Span::default(),
+        value: Value::Map(Arc::default()),
+    };
+    T::decode(&node, &Place::ROOT, &mut Problems::default())
+}
+
+macro_rules! defaults {
+    ($($name:ident),*) => {
+        $(impl Default for $name {
+            fn default() -> Self {
+                of_defaults()
+            }
+        })*
+    };
+}
+defaults!(Sampling, Precision, Comparator, Counting, Circuit);
+
+impl Scene {
+    /// Encodes the scene as data, from which it is printed.
+    pub fn encode(&self) -> Data {
+        let mut data = Part::encode(self);
+        if self.accuracy.is_some() {
+            // The parameters that an accuracy replaces must not be written beside it.
+            if let Data::Map(entries) = &mut data {
+                entries.retain(|(key, _)| {
+                    !["precision", "comparator", "counting"].contains(&key.as_str())
+                });
+                for (key, value) in entries {
+                    if let ("sampling", Data::Map(sampling)) = (key.as_str(), value) {
+                        sampling.retain(|(key, _)| key != "path_bits");
+                    }
+                }
+            }
+        }
+        data
+    }
+
+    /// Returns the scene as YAML, with every default written out. A valid scene survives the round
+    /// trip.
+    pub fn to_yaml(&self) -> String {
+        self.encode().to_yaml()
+    }
+
+    /// Returns the 128-bit FNV-1a hash of the scene's canonical text, with every default written
+    /// out. Equal scenes have equal fingerprints, however they were written. Meshes count by the
+    /// names of their files; [`crate::valid::ValidScene::fingerprint`] adds their contents.
+    pub fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::EMPTY.and(self.encode().canonical().as_bytes())
+    }
+}

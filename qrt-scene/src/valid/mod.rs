@@ -1,0 +1,409 @@
+//! Validation: turns a `Scene` into a [`ValidScene`], or reports all errors at once.
+//!
+//! The range of each value is part of its definition in [`crate::scene`]. This module checks the
+//! ranges, and relations between values: names are defined, primitives have an area, path indices
+//! fit into a word.
+
+pub mod bsdf;
+mod camera;
+mod counting;
+mod geometry;
+mod glass;
+pub mod lights;
+mod notes;
+mod parameters;
+mod sampling;
+
+pub use counting::most_strata;
+pub use parameters::Parameters;
+pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
+
+use crate::expr::Expr;
+use crate::scene::meshes::Meshes;
+use crate::scene::shape::Part;
+use crate::scene::text::Fingerprint;
+use crate::scene::{
+    Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene, Sequence,
+};
+pub use crate::syntax::InvalidScene;
+use crate::syntax::{self, Path, Place, Problem, Problems};
+use glam::DVec3;
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+/// A checked scene, which all later stages require. Only validation ([`validate`]) creates one.
+#[derive(Clone, Debug)]
+pub struct ValidScene {
+    pub(crate) scene: Scene,
+    pub(crate) materials: Vec<Surface>,
+    pub(crate) polygons: Vec<Polygon>,
+    /// The first polygon of each primitive.
+    pub(crate) firsts: Vec<usize>,
+    pub(crate) files: Vec<PathBuf>,
+    pub(crate) warnings: Vec<Problem>,
+    /// The number of the strategy that `uncompute: auto` chooses, cached because it takes a search.
+    auto: OnceLock<usize>,
+}
+
+/// The emission and scattering of a surface. [`ValidScene::surfaces`] lists the scene's materials
+/// first, in their order, then those of MTL files.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The name in the scene, or `FILE.mtl:NAME`.
+    pub name: String,
+    /// The radiance that leaves the front, in W/(sr m^2), linear RGB.
+    pub radiance: Rgb,
+    /// The surface's scattering.
+    pub scatter: Scatter,
+}
+
+impl Surface {
+    /// True if the surface emits in any channel.
+    pub fn emits(&self) -> bool {
+        self.radiance.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// True if paths may continue beyond the surface. The map of a user-defined BSDF may lead
+    /// there.
+    pub fn transmits(&self) -> bool {
+        matches!(self.scatter, Scatter::Dielectric(_) | Scatter::Custom(_))
+    }
+
+    /// True if the surface reflects to more than single directions and has a known density of
+    /// sampled directions. Light of a lamp can then be weighed against light that the surface's own
+    /// rays find.
+    pub fn samples_lights(&self) -> bool {
+        match &self.scatter {
+            Scatter::Black | Scatter::Mirror(_) | Scatter::Dielectric(_) => false,
+            Scatter::Lambertian(_) | Scatter::Ggx(_) | Scatter::Phong(_) => true,
+            Scatter::Custom(bsdf) => bsdf.pdf.is_some(),
+        }
+    }
+}
+
+/// The scattering of a surface.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Scatter {
+    /// Nothing leaves: the path ends here.
+    Black,
+    Lambertian(Lambertian),
+    Mirror(Mirror),
+    Dielectric(Dielectric),
+    Ggx(Ggx),
+    Phong(Phong),
+    Custom(Box<CustomBsdf>),
+}
+
+/// A checked user-defined BSDF.
+#[derive(Clone, Debug)]
+pub struct CustomBsdf {
+    /// The map phi(u, v) from the unit square to unit vectors, by component x, y, z.
+    pub map: [Expr; 3],
+    /// The factor `J |phi_z|`, in `u`, `v`, that turns `value` into the weight `f |n.i| J`. With
+    /// `jacobian: auto` it equals `|x_u y_v - x_v y_u|`, simplified so that common factors cancel.
+    pub projected_jacobian: Expr,
+    /// f, per channel, in `cos_i`, `cos_o`, `cos_a`, `u`, `v`.
+    pub value: [Expr; 3],
+    /// An upper bound, per channel, of the weight `value * projected_jacobian` over its domain.
+    pub weight_bound: Rgb,
+    /// The density of the map's directions, in `cos_i`, `cos_o`, `cos_a`, if it is stated.
+    pub pdf: Option<Expr>,
+}
+
+/// A triangle or a planar convex quadrilateral in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polygon {
+    /// Corners; a triangle repeats its last one.
+    pub vertices: [DVec3; 4],
+    /// Number of corners of the polygon: 3 or 4.
+    pub corners: u8,
+    /// The polygon's surface, as an index into [`ValidScene::surfaces`].
+    pub surface: u32,
+}
+
+impl ValidScene {
+    /// The scene as its author wrote it.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+    /// A cache for the number of the strategy that `uncompute: auto` chooses. The compiler fills it, since
+    /// the choice takes a search.
+    pub fn strategy_cache(&self) -> &OnceLock<usize> {
+        &self.auto
+    }
+    /// All surfaces that polygons may refer to.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.materials
+    }
+    /// All polygons of the scene, those of meshes included.
+    pub fn polygons(&self) -> &[Polygon] {
+        &self.polygons
+    }
+    /// Returns the polygons of a primitive, as a range of [`ValidScene::polygons`]: one, or two of
+    /// a quad that is not planar, or all of a mesh. The range is empty if there is no primitive of
+    /// that number.
+    pub fn polygons_of(&self, primitive: usize) -> std::ops::Range<usize> {
+        let end = self.polygons.len();
+        let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);
+        first(primitive)..first(primitive + 1)
+    }
+    /// The number of the primitive that polygon number `polygon` belongs to.
+    pub(crate) fn primitive_of(&self, polygon: usize) -> usize {
+        let after = self.firsts.partition_point(|&first| first <= polygon);
+        after.saturating_sub(1)
+    }
+
+    /// Returns the place in the scene of the primitive that polygon number `polygon` belongs to.
+    pub(crate) fn place_of(&self, polygon: usize) -> Path {
+        let index = self.primitive_of(polygon);
+        let place = Path::root().key("geometry").item(index);
+        match self.scene.geometry.get(index) {
+            Some(primitive) => place.key(primitive.kind()),
+            None => place,
+        }
+    }
+
+    /// The mesh files and material libraries that were read, each once, under their names in
+    /// errors.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Returns the scene with at most `most` of its polygons, evenly spaced, and a lamp if it has
+    /// one. The cost of this part predicts the cost of the whole. `most` is at least 2.
+    pub fn thinned(&self, most: usize) -> Self {
+        let all = self.polygons.len();
+        let lamp = |polygon: &&Polygon| self.materials[polygon.surface as usize].emits();
+        let lamp = self.polygons.iter().find(lamp);
+        let kept = most.min(all).saturating_sub(usize::from(lamp.is_some()));
+        let taken = (0..kept).map(|n| &self.polygons[n * all / kept]);
+        Self {
+            polygons: lamp.into_iter().chain(taken).copied().collect(),
+            auto: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the scene with only the first `most` rays of each path, at least 1. The cost of
+    /// these rays predicts the cost of all.
+    pub fn with_rays(&self, most: usize) -> Self {
+        let mut part = Self {
+            auto: OnceLock::new(),
+            ..self.clone()
+        };
+        let sampling = &mut part.scene.sampling;
+        sampling.depths.truncate(most.max(1));
+        if sampling.sequence == Sequence::ProductLattice {
+            sampling.path_bits = sampling.lattice_bits();
+        }
+        part
+    }
+
+    /// Returns the warnings about parts that are not errors but probably unintended.
+    pub fn warnings(&self) -> &[Problem] {
+        &self.warnings
+    }
+
+    /// Returns the 128-bit FNV-1a hash of the scene's canonical text (see [`Scene::fingerprint`]),
+    /// of the corners of all polygons, bit for bit, and of the surfaces that MTL files add. It
+    /// changes with everything that changes the picture, in the scene or in a mesh file.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut print = self.scene.fingerprint();
+        for surface in self.materials.iter().skip(self.scene.materials.len()) {
+            let albedo = match surface.scatter {
+                Scatter::Lambertian(Lambertian { albedo }) => albedo,
+                Scatter::Black
+                | Scatter::Mirror(_)
+                | Scatter::Dielectric(_)
+                | Scatter::Ggx(_)
+                | Scatter::Phong(_)
+                | Scatter::Custom(_) => [0.0; 3],
+            };
+            for value in surface.radiance.into_iter().chain(albedo) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        for polygon in &self.polygons {
+            print = print
+                .and(&[polygon.corners])
+                .and(&polygon.surface.to_le_bytes());
+            for value in polygon.vertices.iter().flat_map(DVec3::to_array) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        print
+    }
+}
+
+/// Checks a scene and its meshes, which [`crate::front::obj::load_all`] reads.
+///
+/// # Errors
+/// All problems of the scene.
+///
+/// ```
+/// use qrt_scene::{Film, Scene};
+/// use qrt_scene::valid::validate;
+///
+/// let scene = Scene { film: Film { width: 4, height: 4 }, ..Scene::default() };
+/// let valid = validate(scene.clone(), &Default::default())?;
+/// assert_eq!(valid.scene(), &scene);
+///
+/// let faulty = Scene { film: Film { width: 4, height: 0 }, ..scene };
+/// let invalid = validate(faulty, &Default::default()).unwrap_err();
+/// assert_eq!(invalid[0].path().unwrap().to_string(), "film.height");
+/// # Ok::<(), qrt_scene::valid::InvalidScene>(())
+/// ```
+pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, InvalidScene> {
+    check(scene, meshes, Problems::default()).map_err(InvalidScene::new)
+}
+
+/// Checks as [`validate`] does, for a scene whose reading has found `problems`.
+pub(crate) fn check(
+    scene: Scene,
+    meshes: &Meshes,
+    mut problems: Problems,
+) -> Result<ValidScene, Vec<Problem>> {
+    scene.check(&Place::ROOT, &mut problems);
+    // A value out of its own range is not compared with other values.
+    problems.finalize();
+    camera::check(&scene.camera, &mut problems);
+    sampling::check(&scene, &mut problems);
+    counting::check(&scene, &mut problems);
+    let mut warnings = Vec::new();
+    let mut materials = surfaces(&scene, &mut problems, &mut warnings);
+    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
+    let geometry::Shapes {
+        polygons,
+        firsts,
+        files,
+    } = shapes;
+    let mut valid = ValidScene {
+        scene,
+        materials,
+        polygons,
+        firsts,
+        files,
+        warnings,
+        auto: OnceLock::new(),
+    };
+    glass::check(&valid, &mut problems);
+    if problems.count() == 0 {
+        let found = notes::of(&valid);
+        valid.warnings.extend(found);
+    }
+    lights::check(&mut valid, &mut problems);
+    problems.result(valid)
+}
+
+fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>) -> Vec<Surface> {
+    let materials = Path::root().key("materials");
+    let (mut known, mut map) = (HashMap::new(), bsdf::KnownMap::default());
+    let too_many = too_many(scene, &materials);
+    let is_checked = too_many.is_none();
+    problems.extend(too_many);
+    let mut surfaces = Vec::with_capacity(scene.materials.len());
+    for (name, material) in &scene.materials {
+        let path = materials.key(name.as_str());
+        let (radiance, scatter) = match material {
+            Material::Lambertian(part) => ([0.0; 3], matte(part.albedo)),
+            Material::Emitter(part) => (part.radiance, matte(part.albedo)),
+            Material::Mirror(part) => ([0.0; 3], Scatter::Mirror(*part)),
+            Material::Dielectric(part) => ([0.0; 3], Scatter::Dielectric(*part)),
+            Material::Ggx(part) => ([0.0; 3], Scatter::Ggx(*part)),
+            Material::Phong(part) => {
+                problems.extend(phong_energy(part, &path));
+                ([0.0; 3], Scatter::Phong(*part))
+            }
+            Material::Bsdf(_) if !is_checked => ([0.0; 3], Scatter::Black),
+            Material::Bsdf(part) => {
+                let compiled = known
+                    .entry(part)
+                    .or_insert_with(|| bsdf::compile_with(part, &mut map));
+                let scatter = custom(part, compiled, &path.key("bsdf"), problems, warnings);
+                ([0.0; 3], scatter)
+            }
+        };
+        surfaces.push(Surface {
+            name: name.clone(),
+            radiance,
+            scatter,
+        });
+    }
+    surfaces
+}
+
+/// Returns a problem if checking all user-defined BSDFs takes too long, at the BSDF that exceeds
+/// the limit. Equal BSDFs are checked once.
+fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
+    let (mut known, mut minutes) = (HashSet::new(), 0.0);
+    let (mut last, mut first) = (None, None);
+    for (name, material) in &scene.materials {
+        if let Material::Bsdf(part) = material
+            && known.insert(part)
+        {
+            minutes += bsdf::minutes(part, last.replace(part));
+            if minutes > bsdf::MOST_MINUTES as f64 && first.is_none() {
+                first = Some(name);
+            }
+        }
+    }
+    let what = syntax::Expression::TooMany {
+        minutes: minutes.ceil() as u64,
+        most: bsdf::MOST_MINUTES,
+    };
+    first.map(|name| Problem::new(materials.key(name.as_str()).key("bsdf"), what))
+}
+
+/// Returns a Lambertian, or black if nothing is reflected: the path then ends.
+pub(crate) fn matte(albedo: Rgb) -> Scatter {
+    if albedo == [0.0; 3] {
+        Scatter::Black
+    } else {
+        Scatter::Lambertian(Lambertian { albedo })
+    }
+}
+
+/// Checks that a Phong surface does not reflect more than arrives. At normal incidence the lobe
+/// `(n + 2) / (2 pi) cos^n` has the albedo 1, at any other less, so kd + ks is the maximum that is
+/// reflected.
+fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
+    let sums = phong
+        .diffuse
+        .iter()
+        .zip(&phong.specular)
+        .map(|(kd, ks)| kd + ks);
+    // 0.7 + 0.3 is 1 up to a rounding.
+    let (channel, sum) = sums
+        .enumerate()
+        .find(|(_, sum)| *sum > 1.0 + f64::EPSILON)?;
+    let channel = ["red", "green", "blue"][channel];
+    let path = path.key("phong");
+    let what = syntax::Material::GainsEnergy { sum, channel };
+    Some(Problem::new(path.key("specular"), what).also(path.key("diffuse")))
+}
+
+fn custom(
+    bsdf: &Bsdf,
+    compiled: &Result<CustomBsdf, Vec<Problem>>,
+    path: &Path,
+    problems: &mut Problems,
+    warnings: &mut Vec<Problem>,
+) -> Scatter {
+    let placed = |problem: Problem| problem.below(path);
+    match compiled {
+        Ok(compiled) => {
+            let written = &compiled.value[..bsdf.value.len().min(3)];
+            warnings.extend(bsdf::warnings(written).into_iter().map(placed));
+            Scatter::Custom(Box::new(compiled.clone()))
+        }
+        Err(found) => {
+            problems.extend(found.iter().cloned().map(placed));
+            Scatter::Black
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
