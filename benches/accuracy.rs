@@ -108,7 +108,7 @@ fn by_hand(
             repetitions,
             ..Counting::default()
         };
-        let made = estimator(name, &Settings::of(&counting).unwrap()).unwrap();
+        let made = estimator(name, &Settings::from_counting(&counting).unwrap()).unwrap();
         for &(means, bits) in &means {
             let (mut kept, mut spent) = (0.0, 0);
             for draw in 0..DRAWS {
@@ -241,7 +241,7 @@ fn paths(wide: &ValidScene) -> (Vec<Means>, Vec<[f64; 3]>) {
     let classes = PixelClasses::new(wide);
     let of = |class| Real::of_class(wide, SEED, class).unwrap();
     let [all, dim] = PixelClass::ALL.map(of);
-    let scale = |&pixel: &[u32; 2]| match classes.of(pixel) {
+    let scale = |&pixel: &[u32; 2]| match classes.class(pixel) {
         PixelClass::MayMeetLamp => all.stage().bound(),
         PixelClass::MeetsNoLamp => dim.stage().bound(),
     };

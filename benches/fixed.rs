@@ -137,7 +137,7 @@ fn gates_speed(oracle: &Oracle, parts: &OracleCircuits, machine: &Gates) -> f64 
             qrt::circuit::Operand::Constant(_) => None,
         })
         .collect();
-    let words = oracle.words(1, PIXELS[0]);
+    let words = oracle.parameter_words(1, PIXELS[0]);
     let spans = [Span {
         lanes: machine.lanes(),
         parameters: &words,

@@ -112,7 +112,7 @@ fn scene(lit: bool, bits: u32) -> ValidScene {
         .unwrap_or_else(|report| panic!("{report}"))
         .valid;
     let classes = PixelClasses::new(&scene);
-    assert!(!lit || classes.of([PART[0], PART[1]]) == PixelClass::MeetsNoLamp);
+    assert!(!lit || classes.class([PART[0], PART[1]]) == PixelClass::MeetsNoLamp);
     scene
 }
 

@@ -59,7 +59,7 @@ impl Case {
         let known_noise = if self.known { self.noise } else { Noise::NONE };
         Settings {
             known_noise,
-            ..Settings::of(&counting).unwrap()
+            ..Settings::from_counting(&counting).unwrap()
         }
     }
 

@@ -30,7 +30,7 @@ fn settings(phase_bits: u32) -> Settings {
         strata: None,
         error: None,
     };
-    Settings::of(&counting).unwrap()
+    Settings::from_counting(&counting).unwrap()
 }
 
 /// Returns absolute errors in ascending order, and the coverage: the fraction of the intervals that contain
@@ -105,7 +105,7 @@ fn main() {
             points.push((libm::log(queries), libm::log(quantile)));
             largest = f64::max(largest, quantile * queries);
         }
-        let slope = Fit::of(points).unwrap().slope;
+        let slope = Fit::from_points(points).unwrap().slope;
         println!("  slope {slope:.3}");
         assert!((slope + 1.0).abs() < 0.1);
         assert!(largest < most, "{name}: {largest}");

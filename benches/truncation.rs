@@ -50,7 +50,9 @@ impl Series {
     fn slope(&self) -> f64 {
         let points = self.dark.iter();
         let points = points.map(|&(bits, error)| (f64::from(bits), error.log2()));
-        Fit::of(points).expect("several numbers of paths").slope
+        Fit::from_points(points)
+            .expect("several numbers of paths")
+            .slope
     }
 }
 

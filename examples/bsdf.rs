@@ -98,7 +98,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rendered = render_compiled::<Draped>(&options)?;
     let file = std::path::Path::new("bsdf.png");
     let metadata = rendered.metadata()?;
-    save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
+    save(
+        file,
+        &rendered.image,
+        &metadata,
+        Encoding::for_path(file, None)?,
+    )?;
     println!("bsdf.png: {} queries", rendered.total_queries());
     Ok(())
 }

@@ -121,7 +121,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     })?;
     let file = std::path::Path::new("mirror.png");
     let metadata = rendered.metadata()?;
-    save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
+    save(
+        file,
+        &rendered.image,
+        &metadata,
+        Encoding::for_path(file, None)?,
+    )?;
     println!("mirror.png: {} queries", rendered.total_queries());
     Ok(())
 }

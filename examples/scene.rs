@@ -77,7 +77,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rendered = render_compiled::<Steps>(&options)?;
     let file = std::path::Path::new("scene.png");
     let metadata = rendered.metadata()?;
-    save(file, &rendered.image, &metadata, Encoding::of(file, None)?)?;
+    save(
+        file,
+        &rendered.image,
+        &metadata,
+        Encoding::for_path(file, None)?,
+    )?;
     println!("scene.png: {} queries", rendered.total_queries());
     Ok(())
 }

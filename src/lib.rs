@@ -63,7 +63,7 @@
 //! assert!(counted.total_queries() > 0);
 //!
 //! let path = std::env::temp_dir().join(format!("qrt-facade-{}.exr", std::process::id()));
-//! save(&path, &counted.image, &counted.metadata()?, Encoding::of(&path, None)?)?;
+//! save(&path, &counted.image, &counted.metadata()?, Encoding::for_path(&path, None)?)?;
 //! # std::fs::remove_file(path).ok();
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -134,7 +134,7 @@ pub use qrt_core::oracle::{BoundProgram, Oracle};
 ///     good ^= found;
 /// }
 ///
-/// let predicate = Predicate::of::<Glow>(|m, path, good| meets(m, &path.ray0.found, good))?;
+/// let predicate = Predicate::record::<Glow>(|m, path, good| meets(m, &path.ray0.found, good))?;
 /// let paths = predicate.oracle(Marks::Paths, Compile::default())?;
 /// let light = predicate.oracle(Marks::Light, Compile::default())?;
 /// assert_eq!((paths.channels.len(), light.channels.len()), (1, 3));
@@ -225,7 +225,7 @@ pub use qrt_macros::{qrt, reversible};
 ///
 /// let folder = std::env::temp_dir();
 /// let path = folder.join(format!("qrt-prelude-{}.png", std::process::id()));
-/// save(&path, &image, &about, Encoding::of(&path, Some(1.0))?)?;
+/// save(&path, &image, &about, Encoding::for_path(&path, Some(1.0))?)?;
 /// let mut bytes = Vec::new();
 /// write_to(&mut bytes, &image, &[], &about, Encoding::Png { exposure: 1.0 })?;
 /// assert_eq!(std::fs::read(&path)?, bytes);

@@ -18,10 +18,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         path,
         &compiled.image,
         &compiled.metadata()?,
-        Encoding::of(path, None)?,
+        Encoding::for_path(path, None)?,
     )?;
     // The crate asks for no pictures of this kind.
-    let refused = Encoding::of("box.exr".as_ref(), None);
+    let refused = Encoding::for_path("box.exr".as_ref(), None);
     assert!(matches!(
         refused,
         Err(ImageError::Feature { feature: "exr" })

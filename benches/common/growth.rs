@@ -58,5 +58,5 @@ pub(crate) fn quads(quads: u32) -> String {
 
 /// Fits a power of x to points (x, y); the residual is a fraction of y.
 pub(crate) fn fit(points: impl Iterator<Item = [f64; 2]>) -> Fit {
-    Fit::of(points.map(|[x, y]| (x.ln(), y.ln()))).expect("points of several x")
+    Fit::from_points(points.map(|[x, y]| (x.ln(), y.ln()))).expect("points of several x")
 }

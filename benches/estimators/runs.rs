@@ -47,7 +47,7 @@ impl Run {
             strata: None,
             error: None,
         };
-        Settings::of(&counting).unwrap()
+        Settings::from_counting(&counting).unwrap()
     }
 
     /// Makes `runs` runs on all cores. Each has its own random numbers, whatever thread it is on.
@@ -123,7 +123,7 @@ impl fmt::Display for Point {
 pub(crate) fn slopes(points: &[Point]) -> (f64, f64) {
     let of = |value: fn(&Point) -> f64| {
         let logarithms = points.iter().map(|p| (p.queries.ln(), value(p).ln()));
-        Fit::of(logarithms).expect("several queries").slope
+        Fit::from_points(logarithms).expect("several queries").slope
     };
     (of(|p| p.rmse), of(|p| p.q95))
 }

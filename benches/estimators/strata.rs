@@ -68,7 +68,7 @@ impl Pixel {
             strata,
             ..Counting::default()
         };
-        let settings = Settings::of(&counting).unwrap();
+        let settings = Settings::from_counting(&counting).unwrap();
         let estimator = estimator(Estimator::AdaptiveBayes, &settings).unwrap();
         let octaves = self.octaves();
         let good: u64 = (octaves.good().iter()).sum();

@@ -35,7 +35,7 @@ fn circuit() -> Result<String, Box<dyn Error>> {
     let cuts: Vec<usize> = (1..program.instructions.len()).collect();
     let parts = lower::parts(&program, &cuts);
     let compute = oracle.program.instructions.len();
-    let words = oracle.words(0, [0, 0]);
+    let words = oracle.parameter_words(0, [0, 0]);
     let blocks = &program.blocks;
     let depth = |depth: Option<u32>| depth.map_or(-1, i64::from);
 
@@ -73,8 +73,8 @@ fn circuit() -> Result<String, Box<dyn Error>> {
              {fraction}, meaning: Meaning::{meaning} }},",
             register.name,
             register.ty.name(register.width),
-            Role::of(register).to_string(),
-            depth(Label::of(&blocks[register.block.index()]).depth),
+            Role::from_register(register).to_string(),
+            depth(Label::from_block(&blocks[register.block.index()]).depth),
             register.width,
         )?;
     }
@@ -117,7 +117,7 @@ fn circuit() -> Result<String, Box<dyn Error>> {
             out,
             "Step {{ told: {:?}, block: {:?}, held: &{:?}, mirrored: {mirrored}, gates: &{gates:?} \
              }},",
-            told(&program, step.op, step.inverse),
+            description(&program, step.op, step.inverse),
             block.name,
             held(&part.outputs)?,
         )?;
@@ -163,7 +163,7 @@ fn encoded(gate: Gate, words: &[u64]) -> Result<Option<[u8; 4]>, std::num::TryFr
 }
 
 /// Describes an operation in words: its name, and the registers that it changes and reads.
-fn told(program: &Program, op: u32, inverse: bool) -> String {
+fn description(program: &Program, op: u32, inverse: bool) -> String {
     let op = &program.ops[op as usize];
     let name = |id: &RegisterId| program.registers[id.index()].name.as_str();
     let mut reads: Vec<&str> = op.reads().iter().map(name).collect();

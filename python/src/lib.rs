@@ -5,6 +5,7 @@ mod errors;
 mod oracle;
 mod picture;
 mod scene;
+mod scene_methods;
 mod work;
 
 use pyo3::prelude::*;

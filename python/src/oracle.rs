@@ -350,7 +350,7 @@ impl Oracle {
         measured: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let counts = work::run(py, None, None, |_| {
-            PictureCounts::of(&self.traced, self.name.class, self.planned)
+            PictureCounts::for_scene(&self.traced, self.name.class, self.planned)
         })?;
         let picture = counts.map_err(|error| match error {
             PhysicalError::Oracle(error) => {

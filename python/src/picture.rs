@@ -273,7 +273,7 @@ impl Picture {
             None => errors::job(py, error),
         })?;
         let saved = py.detach(|| {
-            let encoding = Encoding::of(&path, exposure)?;
+            let encoding = Encoding::for_path(&path, exposure)?;
             let mut metadata = self.rendered.metadata()?;
             if let Encoding::Png { exposure } = encoding {
                 metadata.set("exposure", exposure.to_string())?;

@@ -199,7 +199,7 @@ impl<T: Format> Reg<Recorded, T> {
     ///
     /// # Panics
     /// If the width of `register` is not that of `T`.
-    pub fn of(register: Recorded) -> Self {
+    pub fn from_recorded(register: Recorded) -> Self {
         assert!(
             register.width() == T::WIDTH,
             "a register of {} bits was taken for one of {}",
@@ -243,7 +243,7 @@ mod tests {
     fn a_register_is_of_its_own_width() {
         let mut m = Recorder::new(crate::Style::InPlace);
         let a = m.input(&Declaration::work("a", Type::UInt, 4));
-        let _: Reg<_, UInt<8>> = Reg::of(a);
+        let _: Reg<_, UInt<8>> = Reg::from_recorded(a);
     }
 
     #[test]

@@ -390,7 +390,7 @@ pub trait Machine {
             Op::Table {
                 address: address
                     .iter()
-                    .map(|bit| bit.of(|register| register))
+                    .map(|bit| bit.map_register(|register| register))
                     .collect(),
                 columns: columns.iter().map(|&column| column.into()).collect(),
                 low,

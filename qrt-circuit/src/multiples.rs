@@ -36,7 +36,7 @@ pub(crate) struct Term {
 
 impl Term {
     /// Splits a number above 0 into its odd factor and its shift.
-    pub(crate) fn of(number: i64) -> Self {
+    pub(crate) fn from_number(number: i64) -> Self {
         let shift = number.trailing_zeros();
         Self {
             factor: number >> shift,
@@ -123,7 +123,7 @@ fn partners(multiple: i64, known: i64, most: i64, all: &Set, mut found: impl FnM
         offer(multiple, Term { factor, shift });
         shift += 1;
     }
-    let term = Term::of(known);
+    let term = Term::from_number(known);
     let mut shift = 1;
     while shift < CONSTANT_BITS && multiple << shift <= most {
         offer(multiple << shift, term);
@@ -141,7 +141,7 @@ impl Others {
     /// Finds the multiples. `multiple` and `known` are odd, so their sum or difference is even only
     /// if neither is shifted.
     #[inline(always)]
-    fn of(multiple: i64, known: i64, most: i64) -> Self {
+    fn new(multiple: i64, known: i64, most: i64) -> Self {
         let mut others = Self {
             numbers: [0; 4 * CONSTANT_BITS as usize],
             count: 0,
@@ -204,7 +204,7 @@ struct Partner {
 
 impl Partner {
     fn sum(&self) -> Sum {
-        let other = Term::of(self.other);
+        let other = Term::from_number(self.other);
         let (a, b) = if self.minus && !self.from_other {
             (self.term, other)
         } else {
@@ -337,7 +337,7 @@ impl Multiples {
         let rooms = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
         let found = cores.map(&unknown, 4, |odd| {
             let room = rooms().pop().unwrap_or_else(Set::new);
-            let (sums, room) = Search::of(odd, room);
+            let (sums, room) = Search::sums(odd, room);
             rooms().push(room);
             sums.into()
         });
@@ -370,7 +370,7 @@ fn odd_factors(products: &[(i64, u32)]) -> Option<Vec<i64>> {
     let constants = 1..1 << CONSTANT_BITS;
     let odd = products.iter().map(|(factor, _)| {
         let is_constant = constants.contains(factor);
-        is_constant.then(|| Term::of(*factor).factor)
+        is_constant.then(|| Term::from_number(*factor).factor)
     });
     let mut odd: Vec<i64> = odd.collect::<Option<_>>()?;
     odd.sort_unstable();
@@ -424,7 +424,7 @@ impl Wanted {
 impl Search {
     /// Returns the sums that compute the odd numbers `odd`, which ascend. `room` is an empty set,
     /// and is returned empty.
-    fn of(odd: &[i64], room: Set) -> (Vec<(i64, Sum)>, Set) {
+    fn sums(odd: &[i64], room: Set) -> (Vec<(i64, Sum)>, Set) {
         let mut search = Self {
             most: odd.last().map_or(1, |most| most << 2),
             known: vec![1],
@@ -456,7 +456,7 @@ impl Search {
             is_near: false,
         };
         for &known in &self.known {
-            let others = Others::of(multiple, known, self.most);
+            let others = Others::new(multiple, known, self.most);
             wanted.insert_all(&others, &self.is_known);
         }
         // The sum of a multiple with itself, shifted.
@@ -530,7 +530,7 @@ impl Search {
                 wanted.is_near = true;
                 continue;
             }
-            let others = Others::of(wanted.multiple, multiple, self.most);
+            let others = Others::new(wanted.multiple, multiple, self.most);
             wanted.insert_all(&others, &self.is_known);
         }
         best.map(|(_, sum)| (multiple, sum))
@@ -624,7 +624,7 @@ impl Search {
                     break;
                 }
                 if !wanted.from.contains(between) {
-                    let others = Others::of(wanted.multiple, between, self.most);
+                    let others = Others::new(wanted.multiple, between, self.most);
                     let (mut fewest, mut next) = (u32::MAX, 0);
                     while next < others.count {
                         let own = digits(others.numbers[next]);
@@ -666,7 +666,7 @@ mod tests {
         assert!(
             wanted
                 .iter()
-                .all(|&wanted| made.contains(&Term::of(wanted).factor))
+                .all(|&wanted| made.contains(&Term::from_number(wanted).factor))
         );
         multiples.sums().len()
     }

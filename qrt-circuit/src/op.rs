@@ -60,7 +60,7 @@ pub enum Style {
 impl<R> Reads<R> for Word<R> {
     type Of<S> = Word<S>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Word<S> {
-        self.of(rename)
+        self.map_register(rename)
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
         see(&self.register);
@@ -73,7 +73,7 @@ impl<R> Reads<R> for Word<R> {
 impl<R> Reads<R> for Bit<R> {
     type Of<S> = Bit<S>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Bit<S> {
-        self.of(rename)
+        self.map_register(rename)
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
         see(&self.register);
@@ -86,7 +86,9 @@ impl<R> Reads<R> for Bit<R> {
 impl<R> Reads<R> for Box<[Bit<R>]> {
     type Of<S> = Box<[Bit<S>]>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Box<[Bit<S>]> {
-        self.into_iter().map(|bit| bit.of(&mut *rename)).collect()
+        self.into_iter()
+            .map(|bit| bit.map_register(&mut *rename))
+            .collect()
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
         for bit in self {
@@ -101,7 +103,7 @@ impl<R> Reads<R> for Box<[Bit<R>]> {
 impl<R> Reads<R> for Operand<R> {
     type Of<S> = Operand<S>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Operand<S> {
-        self.of(rename)
+        self.map_register(rename)
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
         if let Self::Word(word) = self {
@@ -116,7 +118,7 @@ impl<R> Reads<R> for Operand<R> {
 impl<R> Reads<R> for Option<Bit<R>> {
     type Of<S> = Option<Bit<S>>;
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> Option<Bit<S>> {
-        self.map(|bit| bit.of(rename))
+        self.map(|bit| bit.map_register(rename))
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
         if let Some(bit) = self {
@@ -133,8 +135,8 @@ impl<R> Reads<R> for When<R> {
     fn renamed<S>(self, rename: &mut impl FnMut(R) -> S) -> When<S> {
         match self {
             Self::Always => When::Always,
-            Self::If(bit) => When::If(bit.of(rename)),
-            Self::Reversed(bit) => When::Reversed(bit.of(rename)),
+            Self::If(bit) => When::If(bit.map_register(rename)),
+            Self::Reversed(bit) => When::Reversed(bit.map_register(rename)),
         }
     }
     fn each<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {

@@ -94,7 +94,7 @@ impl Recorder {
 
     /// Creates a recorder of a program whose registers, blocks and parameters are known:
     /// declarations have their places in the list.
-    pub fn of(
+    pub fn with_registers(
         registers: &[Declaration],
         blocks: Vec<Block>,
         parameters: Vec<Parameter>,

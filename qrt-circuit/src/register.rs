@@ -143,7 +143,7 @@ pub struct Word<R = RegisterId> {
 impl<R> Word<R> {
     /// Returns the same bits of a renamed register.
     #[inline(always)]
-    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Word<S> {
+    pub fn map_register<S>(self, rename: impl FnOnce(R) -> S) -> Word<S> {
         Word {
             register: rename(self.register),
             offset: self.offset,
@@ -197,7 +197,7 @@ pub struct Bit<R = RegisterId> {
 impl<R> Bit<R> {
     /// Returns the same bit of a renamed register.
     #[inline(always)]
-    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {
+    pub fn map_register<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {
         Bit {
             register: rename(self.register),
             index: self.index,
@@ -224,9 +224,9 @@ pub enum Operand<R = RegisterId> {
 impl<R> Operand<R> {
     /// Returns the same number of a renamed register.
     #[inline(always)]
-    pub fn of<S>(self, rename: impl FnOnce(R) -> S) -> Operand<S> {
+    pub fn map_register<S>(self, rename: impl FnOnce(R) -> S) -> Operand<S> {
         match self {
-            Self::Word(word) => Operand::Word(word.of(rename)),
+            Self::Word(word) => Operand::Word(word.map_register(rename)),
             Self::Constant(value) => Operand::Constant(value),
         }
     }

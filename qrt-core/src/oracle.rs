@@ -28,6 +28,7 @@ pub mod paths;
 mod phase;
 mod predicate;
 mod recording;
+mod target;
 
 pub use bound::BoundProgram;
 pub use budget::{CallCost, call_cost, check_budget};
@@ -251,7 +252,7 @@ impl Oracle {
                 class,
                 of_all_pixels,
             };
-            OracleCost::of(name, &channels[channel], known)
+            OracleCost::new(name, &channels[channel], known)
         });
         Ok((rgb, costs))
     }
@@ -297,7 +298,7 @@ impl Oracle {
     }
 
     /// The parameters of pixel (column, row).
-    pub fn words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
+    pub fn parameter_words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
         let words = self.parameters.iter();
         words
             .map(|word| word.value(&self.points, seed, pixel))

@@ -1,8 +1,9 @@
 //! The angle of an amplitude, and its multiples.
 
 use super::CountingError;
-use super::distribution::{check_counts, theta_of};
+use super::distribution::check_counts;
 use super::double::{self, Double};
+use super::phase::theta_of;
 
 /// `theta = asin(sqrt(S/N)) / pi` in turns, to 104 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +14,7 @@ impl Angle {
     ///
     /// # Errors
     /// An error if `total` is 0 or `good` exceeds `total`.
-    pub(crate) fn of(good: u64, total: u64) -> Result<Self, CountingError> {
+    pub(crate) fn from_counts(good: u64, total: u64) -> Result<Self, CountingError> {
         check_counts(good, total)?;
         Ok(Self(theta_of(good, total)))
     }
@@ -108,7 +109,7 @@ mod tests {
             (0, 5),
             (5, 5),
         ] {
-            let angle = Angle::of(good, total).unwrap();
+            let angle = Angle::from_counts(good, total).unwrap();
             // cos(2 m x) from cos(2 x) = 1 - 2a.
             let step = 1.0 - 2.0 * good as f64 / total as f64;
             let (mut before, mut now) = (1.0, step);
@@ -163,7 +164,7 @@ mod tests {
     /// only on m modulo 3.
     #[test]
     fn large_multiples_keep_their_place_in_the_turn() {
-        let angle = Angle::of(3, 4).unwrap();
+        let angle = Angle::from_counts(3, 4).unwrap();
         for multiple in [(1_u64 << 44) + 1, (1 << 44) - 1, 3 << 42, 1 << 40] {
             let expected = if multiple % 3 == 0 { 0.0 } else { 0.75 };
             let (sine, _) = angle.sine_squared(multiple);

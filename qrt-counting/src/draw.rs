@@ -17,8 +17,8 @@ use std::f64::consts::PI;
 
 use qrt_scene::Window;
 
-use super::distribution::Phase;
 use super::kernel::Register;
+use super::phase::Phase;
 use crate::random::Stream;
 
 /// Draws outcomes of one counting distribution.

@@ -30,6 +30,7 @@ mod kernel;
 mod likelihood;
 mod lookup;
 mod measured;
+mod phase;
 mod posterior;
 pub mod random;
 mod strata;

@@ -32,10 +32,11 @@ use std::collections::{BTreeMap, HashSet};
 
 use qrt_scene::Window;
 
-use super::distribution::{Phase, check_counts, ln_probability, register};
+use super::distribution::{check_counts, ln_probability, register};
 use super::double::{self, Double};
 use super::error::CountingError;
 use super::kernel::Register;
+use super::phase::Phase;
 
 /// The largest number of integers of a cell that are tried one by one, and of steps of a climb.
 const FEW: u64 = 24;
@@ -87,7 +88,7 @@ pub(super) fn likeliest(
     likelihood: &Likelihood,
     total: u64,
 ) -> Result<MaximumLikelihood, CountingError> {
-    Search::new(likelihood, total).run()
+    Search::new(likelihood, total).maximize()
 }
 
 /// ln of the probability of `outcomes`, in their order, given `good` of `total` indices.
@@ -106,7 +107,7 @@ pub fn ln_likelihood(
 ) -> Result<f64, CountingError> {
     check_counts(good, total)?;
     let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
-    Ok(likelihood.at(Phase::of(good, total, &likelihood.register)))
+    Ok(likelihood.at(Phase::from_counts(good, total, &likelihood.register)))
 }
 
 /// The largest number of indices that [`posterior`] accepts.
@@ -144,7 +145,7 @@ pub fn posterior(
     }
     let likelihood = Likelihood::new(outcomes, register(phase_bits, window)?)?;
     let mut values: Vec<f64> = (0..=total)
-        .map(|good| likelihood.at(Phase::of(good, total, &likelihood.register)))
+        .map(|good| likelihood.at(Phase::from_counts(good, total, &likelihood.register)))
         .collect();
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if largest == f64::NEG_INFINITY {
@@ -250,7 +251,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn run(mut self) -> Result<MaximumLikelihood, CountingError> {
+    fn maximize(mut self) -> Result<MaximumLikelihood, CountingError> {
         let last = self.last_cell();
         for &(outcome, _) in &self.likelihood.outcomes {
             // No cell lies above T/2. The cells below the outcome belong to the second walk.
@@ -342,7 +343,7 @@ impl<'a> Search<'a> {
     }
 
     fn cell_of(&self, good: u64) -> u64 {
-        let phase = Phase::of(good, self.total, &self.likelihood.register);
+        let phase = Phase::from_counts(good, self.total, &self.likelihood.register);
         match self.likelihood.register.window {
             Window::Rect if phase.offset < 0.0 => phase.cell - 1,
             _ => phase.cell,
@@ -350,7 +351,7 @@ impl<'a> Search<'a> {
     }
 
     fn consider(&mut self, good: u64) -> bool {
-        let phase = Phase::of(good, self.total, &self.likelihood.register);
+        let phase = Phase::from_counts(good, self.total, &self.likelihood.register);
         let value = self.likelihood.at(phase);
         let better = value > self.best.ln_likelihood;
         let rank = |good: u64| (good.min(self.total - good), good);

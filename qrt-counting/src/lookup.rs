@@ -19,10 +19,11 @@ use std::sync::{Mutex, PoisonError};
 
 use qrt_scene::Window;
 
-use super::distribution::{Phase, check_counts, ln_probability, register};
+use super::distribution::{check_counts, ln_probability, register};
 use super::error::CountingError;
 use super::kernel::Register;
 use super::likelihood::maximum_likelihood;
+use super::phase::Phase;
 
 /// The largest number of indices at which every S has a row of its own.
 const FEW_IDS: u64 = 1024;
@@ -215,7 +216,7 @@ impl LookupTable {
     /// One row for every S in `first ..= last`.
     fn single(&self, y: u64, first: u64, last: u64) -> Vec<Row> {
         let row = |good| {
-            let phase = Phase::of(good, self.total, &self.register);
+            let phase = Phase::from_counts(good, self.total, &self.register);
             let amplitude = good as f64 / self.total as f64;
             Row {
                 distance: ((phase.cell as f64 - y as f64) + phase.offset).abs(),

@@ -18,10 +18,11 @@ use qrt_scene::Window;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use super::distribution::{Phase, check_counts, register};
+use super::distribution::{check_counts, register};
 use super::double::{self, Double};
 use super::error::CountingError;
 use super::likelihood::{Likelihood, likeliest};
+use super::phase::Phase;
 
 /// The largest number of indices at which the sum goes over every S.
 const FEW_IDS: u64 = 1 << 12;
@@ -200,7 +201,7 @@ impl Integral<'_> {
 
     fn integers(&mut self, first: u64, last: u64) {
         for good in first..=last {
-            let phase = Phase::of(good, self.total, &self.likelihood.register);
+            let phase = Phase::from_counts(good, self.total, &self.likelihood.register);
             let mass = libm::exp(self.likelihood.at(phase) - self.top);
             let amplitude = good as f64 / self.total as f64;
             self.pieces.push(Piece {

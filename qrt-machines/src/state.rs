@@ -141,7 +141,7 @@ impl State {
     }
 
     /// Runs the instruction that was recorded last.
-    fn run(&mut self) {
+    fn run_last(&mut self) {
         let program = self.recorder.program();
         let Some(instruction) = program.instructions.last() else {
             return;
@@ -175,7 +175,7 @@ impl Machine for State {
         let computed = self.recorder.call(call);
         self.declared();
         if self.recorder.program().instructions.len() > recorded {
-            self.run();
+            self.run_last();
         }
         computed
     }

@@ -103,7 +103,7 @@ impl Tile {
     }
 
     /// A tile without pixels yet, from its x, y, width and height on the film.
-    pub(crate) fn of([x, y, width, height]: [u32; 4]) -> Self {
+    pub(crate) fn new([x, y, width, height]: [u32; 4]) -> Self {
         Self {
             x,
             y,
@@ -291,7 +291,7 @@ impl Checkpoint {
         let mut ends = Vec::new();
         for part in parts {
             let [x, y] = part.pixel;
-            if Tile::of([x, y, 1, 1]).area_within(self.crop).is_none() {
+            if Tile::new([x, y, 1, 1]).area_within(self.crop).is_none() {
                 let [width, height] = [1, 1];
                 return Err(CheckpointError::Tile {
                     x,

@@ -49,7 +49,7 @@ pub fn front(
         layout
     };
     let layouts: Result<Vec<Layout>, LayoutsError> =
-        workers.run(|| all.par_iter().map(layout).collect())?;
+        workers.on_threads(|| all.par_iter().map(layout).collect())?;
     Ok(Layout::front(layouts?))
 }
 
@@ -67,8 +67,8 @@ pub fn drawing(front: &[Layout], scene: &str) -> Canvas {
         x: Axis::log("qubits"),
         y: Axis::log("gates"),
         series: vec![
-            Series::of("Toffoli", toffoli, Drawn::Steps),
-            Series::of("AND, undone by measurement", measured, Drawn::Steps),
+            Series::new("Toffoli", toffoli, Drawn::Steps),
+            Series::new("AND, undone by measurement", measured, Drawn::Steps),
         ],
     };
     plot.draw()

@@ -99,7 +99,7 @@ impl PictureCounts {
     ///
     /// # Errors
     /// If the scene has no circuit, the estimator runs no iterates, or a count exceeds u64.
-    pub fn of(
+    pub fn for_scene(
         scene: &ValidScene,
         class: PixelClass,
         planned: Option<[f64; 3]>,
@@ -206,7 +206,7 @@ impl<'a> Run<'a> {
             | Estimator::RandomDepth
             | Estimator::AdaptiveBayes => {}
         }
-        let settings = Settings::of(&counting)?;
+        let settings = Settings::from_counting(&counting)?;
         let queries = match planned {
             _ if self.black => 0,
             Some(planned) if !estimator.has_register() => planned.min(settings.queries),
@@ -236,9 +236,9 @@ impl<'a> Run<'a> {
 
     /// Counts of the circuit of counting, run `repetitions` times.
     fn with_register(&self, around: &Counting<'_>, repetitions: u64) -> Option<Counts> {
-        let begin = LogicalCounts::of(|mut sink| around.prepare(&mut sink));
-        let query = LogicalCounts::of(|mut sink| around.query(0, &mut sink));
-        let end = LogicalCounts::of(|mut sink| around.inverse_fourier(&mut sink));
+        let begin = LogicalCounts::from_circuit(|mut sink| around.prepare(&mut sink));
+        let query = LogicalCounts::from_circuit(|mut sink| around.query(0, &mut sink));
+        let end = LogicalCounts::from_circuit(|mut sink| around.inverse_fourier(&mut sink));
         let read = LogicalCounts {
             measurements: around.phase_register().len() as u64,
             ..LogicalCounts::default()
@@ -252,7 +252,7 @@ impl<'a> Run<'a> {
     /// Counts of `queries` iterates in shots of any length. Each iterate counts a measurement of
     /// the index.
     fn without_register(&self, around: &Counting<'_>, queries: u64) -> Option<Counts> {
-        let query = LogicalCounts::of(|mut sink| around.iterate().apply(None, &mut sink));
+        let query = LogicalCounts::from_circuit(|mut sink| around.iterate().apply(None, &mut sink));
         let query = LogicalCounts {
             measurements: u64::from(self.index),
             ..query

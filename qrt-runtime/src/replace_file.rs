@@ -56,7 +56,7 @@ pub(crate) fn replaced<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
 ) -> Result<DiskFile, E> {
-    let place = Place::of(path)?;
+    let place = Place::resolve(path)?;
     if place.is_device() {
         return write_through(DiskFile::device(path)?, write);
     }

@@ -34,7 +34,7 @@ pub(crate) struct SceneArgs {
 impl SceneArgs {
     /// Returns the memory budget.
     pub(crate) fn memory(&self) -> Memory {
-        Memory::of(self.max_memory)
+        Memory::new(self.max_memory)
     }
 
     /// Reads the scene and checks it.

@@ -24,7 +24,7 @@ impl Output {
     /// `asked` is a folder, its folder does not exist, or it is `-`.
     pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
         keep_off_stdout(asked)?;
-        let place = Place::of(asked).map_err(|error| Failure::file(asked, &error))?;
+        let place = Place::resolve(asked).map_err(|error| Failure::file(asked, &error))?;
         if place.is_folder() {
             let message = format!("`{}` is a folder", asked.display());
             return Err(Failure::Usage(message));
@@ -137,7 +137,7 @@ pub(crate) fn keep_apart<'a>(
     };
     for input in inputs {
         // A missing input is reported when it is read.
-        if let Ok(place) = Place::of(input)
+        if let Ok(place) = Place::resolve(input)
             && let Some(output) = outputs
                 .iter()
                 .find(|output| output.place.is_same_as(&place))

@@ -56,12 +56,12 @@ pub(crate) struct MergeArgs {
 }
 
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
-    let encoding = Encoding::of(&args.output, args.beside.exposure)?;
+    let encoding = Encoding::for_path(&args.output, args.beside.exposure)?;
     let outputs = Outputs::new(&args.output, &args.beside)?;
     picture::keeps_layers(args.layers.is_some(), &args.output, encoding)?;
     let inputs = args.parts.iter().chain(&args.layers);
     outputs.keep_off(inputs.map(PathBuf::as_path))?;
-    let memory = Memory::of(args.max_memory);
+    let memory = Memory::new(args.max_memory);
     let load = |path| load(path, &args.sets, &args.allow_files, memory);
     let scene = args.layers.as_deref().map(load).transpose()?;
     let files = scene.iter().flat_map(|loaded| loaded.valid.files());

@@ -11,8 +11,7 @@ use serde_json::{Value, json};
 ///
 /// # Errors
 /// No parameters keep the accuracy.
-/// An accuracy that no parameters keep.
-pub(crate) fn of(
+pub(crate) fn choose(
     scene: &ValidScene,
     options: &Options<'_>,
     quiet: bool,

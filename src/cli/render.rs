@@ -198,13 +198,13 @@ enum Target {
 }
 
 impl Target {
-    fn of(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
+    fn from_args(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
         let Some(portion) = args.tile else {
-            let encoding = Encoding::of(output, args.beside.exposure)?;
+            let encoding = Encoding::for_path(output, args.beside.exposure)?;
             picture::keeps_layers(args.layers, output, encoding)?;
             return Ok(Self::Picture(encoding));
         };
-        if Encoding::of(output, None).is_ok() {
+        if Encoding::for_path(output, None).is_ok() {
             return Err(Failure::Usage(format!(
                 "`{}` would be a picture, and part {portion} of one is none: give it another ending, \
                  and `qrt merge` makes the picture",
@@ -242,7 +242,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         .output
         .clone()
         .unwrap_or_else(|| named_after(&args.scene.scene, "png"));
-    let target = Target::of(args, &output)?;
+    let target = Target::from_args(args, &output)?;
     let mut outputs = Outputs::new(&output, &args.beside)?;
     if args.watch {
         // A watched render restarts from the changed scene, so no checkpoint is kept.
@@ -283,7 +283,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     let fits = options.memory.keep_picture(size);
     fits.map_err(|error| memory::refused(&error))?;
     memory::keep_plan(options.memory, scene)?;
-    let planned = plan::of(scene, &options.planning(), args.quiet)?;
+    let planned = plan::choose(scene, &options.planning(), args.quiet)?;
     options.plan = planned.as_ref();
     let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
     if let Some(work) = options.circuit_work() {

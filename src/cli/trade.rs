@@ -112,7 +112,7 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         workers,
         ..PlanOptions::default()
     };
-    let planned = plan::of(&loaded.valid, &planning, args.quiet)?;
+    let planned = plan::choose(&loaded.valid, &planning, args.quiet)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let options = Options {
         pixels: args.pixels,

@@ -14,7 +14,7 @@ const TICK: Duration = Duration::from_millis(100);
 struct Times(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
 
 impl Times {
-    fn of(files: &[PathBuf]) -> Self {
+    fn read(files: &[PathBuf]) -> Self {
         let time = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;
             Some((found.modified().ok()?, found.len()))
@@ -29,7 +29,7 @@ impl Times {
 
     fn changed(&self) -> bool {
         let files: Vec<PathBuf> = self.0.iter().map(|(path, _)| path.clone()).collect();
-        *self != Self::of(&files)
+        *self != Self::read(&files)
     }
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn watch(
     let mut first = true;
     while !interrupted.load(Ordering::Relaxed) {
         // The times are taken before the files are read, so a file saved meanwhile is read again.
-        let before = Times::of(&files);
+        let before = Times::read(&files);
         let (outdated, done) = (AtomicBool::new(false), AtomicBool::new(false));
         let mut read = vec![scene.to_owned()];
         let result = std::thread::scope(|threads| {
@@ -77,7 +77,7 @@ pub(crate) fn watch(
         if read.len() >= files.len() {
             files = read;
         }
-        let after = Times::of(&files);
+        let after = Times::read(&files);
         let stale = |path: &PathBuf| {
             let of = |times: &Times| times.0.iter().find(|(own, _)| own == path).cloned();
             of(&before).is_some_and(|then| Some(then) != of(&after))

@@ -69,7 +69,7 @@ fn fits(oracle: &std::sync::Arc<Oracle>, every: usize) -> Result<usize, String> 
     }
     let mut proven = 0;
     for (place, pixel) in pixels.iter().enumerate() {
-        let words = oracle.words(SEED, *pixel);
+        let words = oracle.parameter_words(SEED, *pixel);
         for id in (0..machine.paths()).filter(|id| (*id as usize + place).is_multiple_of(every)) {
             let found = extremes.record(program, &inputs(oracle, id), &words);
             if !undone {
@@ -334,7 +334,7 @@ proptest! {
 #[test]
 fn extremes_enclose_what_is_held() {
     let oracle = oracle(&written(CORNER, &[]));
-    let words = oracle.words(SEED, [1, 1]);
+    let words = oracle.parameter_words(SEED, [1, 1]);
     let mut extremes = Extremes::new(&oracle.program);
     for id in 0..32 {
         let found = contents(&oracle.program, &inputs(&oracle, id), &words);

@@ -304,7 +304,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         // Count the differences by the definition of operations, one path after another.
         let mut differ = 0;
         for (number_of, pixel) in checked.pixels.iter().enumerate() {
-            let words = oracle.words(SEED, *pixel);
+            let words = oracle.parameter_words(SEED, *pixel);
             for id in 0..32 {
                 let held = contents(&wrong.program, &inputs(oracle, id), &words);
                 let at = number_of * 32 + id as usize;

@@ -38,7 +38,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
         let (id, comparator) = (qubits(oracle.id), qubits(oracle.comparator));
         let held = [&id[..], &comparator].concat();
         for (place, pixel) in pixels.iter().enumerate() {
-            let words = oracle.words(SEED, *pixel);
+            let words = oracle.parameter_words(SEED, *pixel);
             let mut rows = machine.rows();
             let values = |of: fn(&(u64, u64)) -> u64| states.iter().map(of).collect::<Vec<_>>();
             let (ids, thresholds) = (values(|s| s.0), values(|s| s.1));

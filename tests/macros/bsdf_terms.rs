@@ -322,7 +322,7 @@ fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {
     assert!(rendered.image.pixels.iter().flatten().any(|c| *c > 0.0));
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let metadata = rendered.metadata().unwrap();
-    let encoding = Encoding::of(&path, None).unwrap();
+    let encoding = Encoding::for_path(&path, None).unwrap();
     save(&path, &rendered.image, &metadata, encoding).unwrap();
     std::fs::read(path).unwrap()
 }

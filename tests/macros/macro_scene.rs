@@ -72,7 +72,7 @@ fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {
         &path,
         &rendered.image,
         &metadata,
-        Encoding::of(&path, None).unwrap(),
+        Encoding::for_path(&path, None).unwrap(),
     )
     .unwrap();
     std::fs::read(path).unwrap()

@@ -342,7 +342,7 @@ fn a_predicates_oracle_is_counted_by_the_whole_circuit() {
     fn right(x: &Fixed<4, 3>, found: &Bool, good: &mut Bool) {
         good ^= found & (x > 0.25);
     }
-    let predicate = Predicate::of::<Tiny>(|m, path, good| {
+    let predicate = Predicate::record::<Tiny>(|m, path, good| {
         right(m, &path.ray0.origin.x, &path.ray0.found, good);
     })
     .unwrap();
@@ -456,7 +456,7 @@ fn estimators_tell_a_fraction_an_interval_and_their_queries() {
 #[test]
 fn a_predicate_costs_what_it_reads_and_no_more() {
     let cost = |code: Code| {
-        let predicate = Predicate::of::<Corner>(code).unwrap();
+        let predicate = Predicate::record::<Corner>(code).unwrap();
         let options = qrt::core::oracle::Options::default();
         let oracle = predicate.oracle(Marks::Paths, options).unwrap();
         let (cost, qubits) = oracle.cost(0);
@@ -479,7 +479,7 @@ fn a_predicate_costs_what_it_reads_and_no_more() {
 
 #[test]
 fn code_that_is_no_predicate_is_refused() {
-    let of = |code: Code| Predicate::of::<Corner>(code).unwrap_err();
+    let of = |code: Code| Predicate::record::<Corner>(code).unwrap_err();
     let left = of(|m, path, _| {
         let mut t: Reg<_, UInt<3>> = Reg::zero(m, "t");
         m.xor_into(t.register_mut(), path.ray0.face.word().into(), None);

@@ -176,7 +176,7 @@ fn methods_of_formats() {
     // The test also calls it on a machine by hand.
     let mut state = State::new();
     let x = state.input(&Declaration::work("x", Type::UInt, 3), 6);
-    let mut x: Reg<_, UInt<3>> = Reg::of(x);
+    let mut x: Reg<_, UInt<3>> = Reg::from_recorded(x);
     UInt::<3>::increment(&mut state, &mut x);
     UInt::<3>::increment(&mut state, &mut x);
     assert_eq!(state.bits(x.register()), 0);

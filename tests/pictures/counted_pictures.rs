@@ -159,12 +159,12 @@ fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
     };
     let film = "film={ width: 65536, height: 65536 }";
     let unlimited = Options {
-        memory: Memory::of(Some(u64::MAX)),
+        memory: Memory::new(Some(u64::MAX)),
         ..Options::default()
     };
     refused(&[film, "sampling.path_bits=52"], &unlimited, "2^64");
     let little = Options {
-        memory: Memory::of(Some(1 << 30)),
+        memory: Memory::new(Some(1 << 30)),
         ..Options::default()
     };
     refused(&[film], &little, "would take about 447 GB of memory");

@@ -259,7 +259,7 @@ fn the_box_needs_few_paths() {
         let spread = (0..64 * 64).step_by(29).map(|k| [k % 64, k / 64]);
         // Also leave out the lamp's rim, whose light is not sampled.
         let away = |&[x, y]: &[u32; 2]| {
-            let near = |x, y| classes.of([x, y]) == PixelClass::MayMeetLamp;
+            let near = |x, y| classes.class([x, y]) == PixelClass::MayMeetLamp;
             let (left, above) = (x.saturating_sub(1), y.saturating_sub(1));
             !(left..=x + 1).any(|x| (above..=y + 1).any(|y| near(x, y)))
         };
@@ -301,7 +301,7 @@ fn scales_are_proven_by_class_of_pixel() {
     let pixels: Vec<[u32; 2]> = (0..64 * 64).map(|k| [k % 64, k / 64]).collect();
     let (lit, unlit): (Vec<_>, Vec<_>) = pixels
         .into_iter()
-        .partition(|&pixel| classes.of(pixel) == PixelClass::MayMeetLamp);
+        .partition(|&pixel| classes.class(pixel) == PixelClass::MayMeetLamp);
     assert!(lit.len() < 60, "{}", lit.len());
     let greatest = |real: &Real, pixels: &[[u32; 2]]| {
         let mut most = [0.0; 3];
@@ -386,7 +386,7 @@ sampling: {{ path_bits: 8, lights: {lights}, depths: [{{ bits: [6, 6] }}, {depth
             let real = Real::of_class(&scene, seed, class).unwrap();
             let scale = real.stage().bound();
             let pixels = (0..36).map(|k| [k % 6, k / 6]);
-            let pixels: Vec<[u32; 2]> = pixels.filter(|&p| classes.of(p) == class).collect();
+            let pixels: Vec<[u32; 2]> = pixels.filter(|&p| classes.class(p) == class).collect();
             sampled += pixels.len();
             let mut most = [0.0; 3];
             real.trace(&pixels, |block| {
@@ -525,7 +525,9 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: 
         let classes = PixelClasses::new(&scene(lamp, target, vfov, &[]));
         let had = |class| {
             let pixels = (0..20).map(|k| [k % 5, k / 5]);
-            pixels.map(|pixel| classes.of(pixel)).any(|of| of == class)
+            pixels
+                .map(|pixel| classes.class(pixel))
+                .any(|of| of == class)
         };
         let had: Vec<PixelClass> = PixelClass::ALL.into_iter().filter(|&c| had(c)).collect();
         assert_eq!(classes.present(), had, "{lamp} {target} {vfov}");

@@ -17,10 +17,10 @@ impl Bibliography {
     /// `| <a id="KEY"></a>KEY |`. A book may have none.
     pub(crate) fn read(src: &Path) -> Self {
         let text = std::fs::read_to_string(src.join(PAGE).with_extension("md"));
-        Self::of(&text.unwrap_or_default())
+        Self::parse(&text.unwrap_or_default())
     }
 
-    fn of(text: &str) -> Self {
+    fn parse(text: &str) -> Self {
         let entry = |line: &str| {
             let (key, rest) = line.strip_prefix("| <a id=\"")?.split_once('"')?;
             let said = rest.split_once(" | ")?.1.trim_end_matches([' ', '|']);
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_citation_says_what_it_cites() {
-        let all = Bibliography::of(ROW);
+        let all = Bibliography::parse(ROW);
         let cited = all.cite("related-work.md#VG95", ("lights.html", ""));
         let html = cited.unwrap().unwrap();
         assert!(html.contains("href=\"related-work.html#VG95\""), "{html}");
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn what_is_not_in_the_bibliography_is_told() {
-        let all = Bibliography::of(ROW);
+        let all = Bibliography::parse(ROW);
         let none = all.cite("related-work.md#VG96", ("lights.html", ""));
         assert_eq!(
             none,

@@ -80,7 +80,7 @@ impl Formulas {
     }
 
     /// Saves the formulas that this build used, for the next build.
-    pub(crate) fn keep(&self) -> Result<()> {
+    pub(crate) fn save(&self) -> Result<()> {
         let Some(file) = &self.kept else {
             return Ok(());
         };
@@ -177,7 +177,7 @@ mod tests {
         let folder = folder.path().join("cache");
         let mut first = Formulas::kept_in(&folder);
         let html = first.render("x", false).unwrap();
-        first.keep().unwrap();
+        first.save().unwrap();
         let mut second = Formulas::kept_in(&folder);
         assert_eq!(second.render("x", false).unwrap(), html);
         assert!(second.engine.is_none(), "rendered again");
@@ -190,7 +190,7 @@ mod tests {
         std::fs::write(&file, "").unwrap();
         let mut formulas = Formulas::kept_in(&file.join("cache"));
         formulas.render("x", false).unwrap();
-        let error = formulas.keep().unwrap_err();
+        let error = formulas.save().unwrap_err();
         let expected = format!("cannot make the folder {}", file.join("cache").display());
         assert_eq!(error.to_string(), expected);
     }

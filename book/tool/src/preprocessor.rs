@@ -111,7 +111,7 @@ impl Preprocessor for QrtBook {
         });
 
         workshop.sources.write(&src.join("source"))?;
-        workshop.formulas.keep()?;
+        workshop.formulas.save()?;
         workshop.complaints.sort();
         workshop.complaints.dedup();
         *self.complaints.borrow_mut() = workshop.complaints;

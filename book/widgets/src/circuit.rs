@@ -285,7 +285,7 @@ mod tests {
         for (id, comparator) in states() {
             let mut expected = Contents {
                 registers: vec![0; widths.len()],
-                parameters: oracle.words(0, [0, 0]),
+                parameters: oracle.parameter_words(0, [0, 0]),
                 widths: widths.clone(),
                 negative: false,
             };

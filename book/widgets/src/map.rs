@@ -101,15 +101,15 @@ fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
     match bsdf::compile(&bsdf) {
         Ok(compiled) => Ok(Box::new(compiled.map)),
         Err(problems) => {
-            let told: Vec<String> = problems.iter().map(|p| told(&bsdf.map, p)).collect();
+            let told: Vec<String> = problems.iter().map(|p| message(&bsdf.map, p)).collect();
             Err(told.join("\n\n"))
         }
     }
 }
 
 /// Formats a problem as qrt does: its code and message, its place, and its remedy.
-fn told(map: &[String; 3], problem: &Problem) -> String {
-    let words = problem.words();
+fn message(map: &[String; 3], problem: &Problem) -> String {
+    let words = problem.description();
     let mut out = format!("error[{}]: {}", words.code, words.message);
     let mut steps = problem.path().into_iter().flat_map(|path| &path.0);
     let component = steps.find_map(|step| match step {

@@ -140,7 +140,7 @@ impl Picture {
             repetitions: 1,
             ..self.counting
         };
-        let estimator = estimator(name, &Settings::of(&counting)?)?;
+        let estimator = estimator(name, &Settings::from_counting(&counting)?)?;
         let first = pixels.start.min(self.traced.len());
         let last = pixels.end.min(self.traced.len());
         self.estimated.resize(self.traced.len(), [0.0; 3]);

@@ -6,7 +6,7 @@
 ///
 /// ```
 /// use qrt_drawing::Fit;
-/// let fit = Fit::of([(0.0, 1.0), (1.0, 0.0), (2.0, -1.0)]).unwrap();
+/// let fit = Fit::from_points([(0.0, 1.0), (1.0, 0.0), (2.0, -1.0)]).unwrap();
 /// assert_eq!((fit.slope, fit.slope_band), (-1.0, 0.0));
 /// assert_eq!(fit.at(5.0), -4.0);
 /// ```
@@ -32,7 +32,7 @@ pub struct Fit {
 
 impl Fit {
     /// Fits points (log10 x, log10 y). `None` if there are fewer than two different x.
-    pub fn of(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+    pub fn from_points(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let points: Vec<(f64, f64)> = points.into_iter().collect();
         let count = points.len() as f64;
         let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
@@ -126,7 +126,7 @@ mod tests {
         let y = [
             8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68,
         ];
-        let fit = Fit::of(x.into_iter().zip(y)).unwrap();
+        let fit = Fit::from_points(x.into_iter().zip(y)).unwrap();
         assert!((fit.slope - 0.500).abs() < 5e-4);
         assert!((fit.at(0.0) - 3.00).abs() < 5e-3);
         assert!((fit.slope_band / 2.2622 - 0.118).abs() < 5e-4);
@@ -138,9 +138,9 @@ mod tests {
 
     #[test]
     fn a_line_needs_two_places() {
-        assert_eq!(Fit::of([]), None);
-        assert_eq!(Fit::of([(1.0, 2.0), (1.0, 3.0)]), None);
-        let two = Fit::of([(1.0, 2.0), (2.0, 3.0)]).unwrap();
+        assert_eq!(Fit::from_points([]), None);
+        assert_eq!(Fit::from_points([(1.0, 2.0), (1.0, 3.0)]), None);
+        let two = Fit::from_points([(1.0, 2.0), (2.0, 3.0)]).unwrap();
         assert_eq!((two.slope, two.slope_band), (1.0, f64::INFINITY));
     }
 }

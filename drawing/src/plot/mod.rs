@@ -29,7 +29,7 @@ use crate::Canvas;
 ///     title: "Error of an average".to_owned(),
 ///     x: Axis::log("queries"),
 ///     y: Axis::log("error"),
-///     series: vec![Series::of("Monte Carlo", points, Drawn::Fit)],
+///     series: vec![Series::new("Monte Carlo", points, Drawn::Fit)],
 /// };
 /// let svg = plot.draw().svg();
 /// assert!(svg.starts_with("<svg") && svg.contains("slope \u{2212}0.49"));

@@ -42,7 +42,7 @@ pub struct Series {
 
 impl Series {
     /// Creates a series of points without error bars.
-    pub fn of(name: &str, points: impl IntoIterator<Item = (f64, f64)>, drawn: Drawn) -> Self {
+    pub fn new(name: &str, points: impl IntoIterator<Item = (f64, f64)>, drawn: Drawn) -> Self {
         let bare = |(x, y)| Point {
             x,
             y,
@@ -82,7 +82,7 @@ impl Series {
             .iter()
             .map(|[px, py, ..]| (x.logarithm(*px), y.logarithm(*py)));
         (self.drawn == Drawn::Fit)
-            .then(|| Fit::of(logarithms))
+            .then(|| Fit::from_points(logarithms))
             .flatten()
     }
 }

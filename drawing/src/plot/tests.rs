@@ -17,8 +17,8 @@ fn a_slope_is_that_of_its_power_law() {
     let points =
         |slope: f64| (1..=4).map(move |k| (10f64.powi(k), 10f64.powf(slope * f64::from(k))));
     let svg = plot(vec![
-        Series::of("quantum", points(-1.0), Drawn::Fit),
-        Series::of("classical", points(-0.5), Drawn::Fit),
+        Series::new("quantum", points(-1.0), Drawn::Fit),
+        Series::new("classical", points(-0.5), Drawn::Fit),
     ])
     .draw()
     .svg();
@@ -30,7 +30,7 @@ fn a_slope_is_that_of_its_power_law() {
 /// Over bits b, the slope is taken over 2^b.
 #[test]
 fn a_slope_over_bits_is_over_their_power_of_two() {
-    let mut plot = plot(vec![Series::of(
+    let mut plot = plot(vec![Series::new(
         "steps",
         (2..9).map(|b| (f64::from(b), 0.5f64.powi(b))),
         Drawn::Fit,
@@ -52,7 +52,7 @@ fn what_has_no_logarithm_is_left_out() {
         (10.0, f64::INFINITY),
         (-1.0, 2.0),
     ];
-    let svg = plot(vec![Series::of("odd", points, Drawn::Joined)])
+    let svg = plot(vec![Series::new("odd", points, Drawn::Joined)])
         .draw()
         .svg();
     assert!(svg.contains("nothing to show"));
@@ -60,7 +60,7 @@ fn what_has_no_logarithm_is_left_out() {
         assert!(!svg.contains(word), "{svg}");
     }
     // One point has a place, even if its error bar reaches down to zero.
-    let mut series = Series::of("one", [(3.0, 0.1)], Drawn::Fit);
+    let mut series = Series::new("one", [(3.0, 0.1)], Drawn::Fit);
     series.points[0].low = 0.0;
     let svg = plot(vec![series]).draw().svg();
     assert!(!svg.contains("nothing to show") && !svg.contains("NaN") && !svg.contains("slope"));
@@ -79,7 +79,7 @@ fn every_number_lies_on_the_drawing() {
             let shifted = points
                 .clone()
                 .map(move |(x, y)| (x, y * 1.3f64.powi(n as i32)));
-            Series::of(&format!("series {n}"), shifted, Drawn::Fit)
+            Series::new(&format!("series {n}"), shifted, Drawn::Fit)
         })
         .collect();
     let svg = plot(series).draw().svg();
@@ -111,11 +111,11 @@ fn ticks_are_numbers_that_people_write() {
 #[test]
 fn a_series_keeps_its_style_wherever_it_stands() {
     let points = [(1.0, 1.0), (10.0, 0.1)];
-    let series = Series::of("digital net", points, Drawn::Joined).styled(2);
+    let series = Series::new("digital net", points, Drawn::Joined).styled(2);
     let [alone, second] = [
         plot(vec![series.clone()]),
         plot(vec![
-            Series::of("random paths", points, Drawn::Joined).styled(5),
+            Series::new("random paths", points, Drawn::Joined).styled(5),
             series,
         ]),
     ]
@@ -143,7 +143,7 @@ fn long_names_and_titles_are_whole() {
             14.0 + 112.0 * 8.6,
         ),
     ] {
-        let mut plot = plot(vec![Series::of(
+        let mut plot = plot(vec![Series::new(
             name,
             [(1.0, 1.0), (9.0, 2.0)],
             Drawn::Steps,

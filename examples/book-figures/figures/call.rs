@@ -47,7 +47,7 @@ fn class(name: &str) -> &'static str {
 pub(super) fn animated() -> Figure {
     let scene = scene(include_str!("../../lit-wall.yaml"), "lit-wall.yaml");
     let inspection = Inspection::new(&scene, None, Options::default()).expect("a circuit");
-    let frame = Frame::of(&inspection);
+    let frame = Frame::new(&inspection);
     let stages = inspection.stages();
     let counts = counts();
     let good: i64 = counts.iter().sum();

@@ -66,7 +66,7 @@ fn held(inspection: &Inspection) -> Vec<Held> {
                 .find(|stage| stage.instructions.contains(&span.start));
             within.map_or_else(String::new, ToString::to_string)
         };
-        let (role, qubits) = (Role::of(register), u64::from(register.width));
+        let (role, qubits) = (Role::from_register(register), u64::from(register.width));
         let known = all
             .iter_mut()
             .find(|held| held.stage == stage && held.role == role);
@@ -191,9 +191,9 @@ pub(super) fn growth() -> Figure {
         .map(|(name, points)| said(name, points))
         .collect();
     let mut series = all
-        .map(|(name, points)| Series::of(name, points.to_vec(), Drawn::Fit))
+        .map(|(name, points)| Series::new(name, points.to_vec(), Drawn::Fit))
         .to_vec();
-    series.push(Series::of("rays D to 8", few.to_vec(), Drawn::Joined));
+    series.push(Series::new("rays D to 8", few.to_vec(), Drawn::Joined));
     let plot = Plot {
         title: "Toffolis of one oracle call, and how they grow".to_owned(),
         x: Axis::log("quads P, rays D or fraction bits w"),
@@ -257,7 +257,7 @@ pub(super) fn width() -> Figure {
         title: "Error of the circuit's numbers, Cornell box".to_owned(),
         x: Axis::bits("fraction bits"),
         y: Axis::log("RMSE to real over the mean"),
-        series: vec![Series::of("fixed to real", points, Drawn::Fit)],
+        series: vec![Series::new("fixed to real", points, Drawn::Fit)],
     };
     Figure::drawn(plot.draw(), says)
 }

@@ -58,7 +58,7 @@ fn slope(points: &[[f64; 2]]) -> f64 {
     let logarithms = points
         .iter()
         .map(|[x, y]| (libm::log10(*x), libm::log10(*y)));
-    Fit::of(logarithms).map_or(0.0, |fit| fit.slope)
+    Fit::from_points(logarithms).map_or(0.0, |fit| fit.slope)
 }
 
 /// Draws the error over the number of paths.
@@ -86,7 +86,7 @@ pub(super) fn truncation() -> Figure {
     );
     let series = names.iter().map(|name| {
         let points = of(name).into_iter().map(|[x, y]| (x, y));
-        Series::of(name, points, Drawn::Fit).styled(style(name))
+        Series::new(name, points, Drawn::Fit).styled(style(name))
     });
     let plot = Plot {
         title: "Error of a picture over the number of paths".to_owned(),
@@ -122,7 +122,7 @@ fn estimators(amplitudes: &str, error: &str, title: &str, axis: &str, what: &str
     let says = format!("{what} {}.", says.join("; "));
     let series = names.iter().map(|name| {
         let points = of(name).into_iter().map(|[x, y]| (x, y));
-        Series::of(name, points, Drawn::Fit).styled(style(name))
+        Series::new(name, points, Drawn::Fit).styled(style(name))
     });
     let plot = Plot {
         title: title.to_owned(),
@@ -296,7 +296,7 @@ pub(super) fn rivals() -> Figure {
         let over: Vec<_> = points.iter().map(|p| [p.x, p.y]).collect();
         said.push(format!("{name}: slope {:.2}", slope(&over)));
         let bare = points.iter().map(|p| (p.x, p.y));
-        Series::of(name, bare, Drawn::Fit).styled(style(name))
+        Series::new(name, bare, Drawn::Fit).styled(style(name))
     });
     let says = format!(
         "Error of a pixel of the Cornell box over its mean: of counting over the queries of all three \

@@ -159,7 +159,7 @@ pub(super) fn dimensions() -> Figure {
         x: Axis::bits("D, rays of a path (2 D coordinates)"),
         y: Axis::log("RMSE over the mean"),
         series: series
-            .map(|(name, errors)| Series::of(name, errors, Drawn::Joined).styled(style(name)))
+            .map(|(name, errors)| Series::new(name, errors, Drawn::Joined).styled(style(name)))
             .collect(),
     };
     Figure::drawn(plot.draw(), says)

@@ -159,7 +159,7 @@ fn a_parameter_without_a_word_is_refused() {
         name: "word".to_owned(),
         width: 2,
     };
-    let mut m = Recorder::of(
+    let mut m = Recorder::with_registers(
         &[],
         vec![crate::Block::default()],
         vec![parameter],

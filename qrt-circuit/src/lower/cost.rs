@@ -1,7 +1,6 @@
-//! Costs of operations. Their gates are counted and not kept.
+//! Costs and other figures of operations. Their gates are counted and not kept.
 
 use super::super::{Gate, Op, Program, RegisterId};
-use super::figures::Figures;
 use super::place::{canonical, placed};
 use std::collections::HashMap;
 use std::iter::Sum;
@@ -37,6 +36,17 @@ impl Sum for Cost {
     fn sum<I: Iterator<Item = Self>>(costs: I) -> Self {
         costs.fold(Self::default(), Add::add)
     }
+}
+
+/// The figures that the lowering of an operation yields.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Figures {
+    /// The costs of the operation and of its inverse: [`super::costs`].
+    pub costs: [Cost; 2],
+    /// The width in qubits of its garbage register: [`super::scratch_width`].
+    pub scratch: u32,
+    /// The most qubits that it borrows at a time, beside its registers, and returns.
+    pub borrowed: u32,
 }
 
 /// Returns the costs of an operation and of its inverse, given the widths of its registers.

@@ -1,21 +1,10 @@
 //! Costs and numbers of qubits of operations, computed once for operations that are alike.
 
 use super::super::{Cores, Op, RegisterId};
-use super::cost::{Cost, counted};
-use super::place::canonical;
+use super::cost::{Figures, counted};
+use super::place::{Shape, canonical};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
-
-/// The figures that the lowering of an operation yields.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Figures {
-    /// The costs of the operation and of its inverse: [`super::costs`].
-    pub costs: [Cost; 2],
-    /// The width in qubits of its garbage register: [`super::scratch_width`].
-    pub scratch: u32,
-    /// The most qubits that it borrows at a time, beside its registers, and returns.
-    pub borrowed: u32,
-}
 
 /// A cache of the figures of operations.
 ///
@@ -31,12 +20,12 @@ pub struct Figures {
 ///     a: read(a), b: read(b), subtract: false, target: RegisterId(target),
 /// };
 /// let mut known = KnownFigures::default();
-/// let figures = known.of(&sum(0, 1, 2), |_| 8);
+/// let figures = known.figures(&sum(0, 1, 2), |_| 8);
 /// assert_eq!(figures.costs, costs(&sum(0, 1, 2), |_| 8));
-/// assert_eq!(known.of(&sum(5, 3, 4), |_| 8), figures);
+/// assert_eq!(known.figures(&sum(5, 3, 4), |_| 8), figures);
 /// assert_eq!(known.len(), 1);
 /// // A number added to itself is shifted, which takes no Toffoli.
-/// assert_eq!(known.of(&sum(5, 5, 4), |_| 8).costs[0].toffoli, 0);
+/// assert_eq!(known.figures(&sum(5, 5, 4), |_| 8).costs[0].toffoli, 0);
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct KnownFigures {
@@ -45,15 +34,12 @@ pub struct KnownFigures {
     found: Vec<Figures>,
 }
 
-/// An operation whose registers are numbered in the order in which it names them, and their widths.
-pub(super) type Shape = (Op, Box<[u32]>);
-
 /// A hash map for trusted keys: no protection against chosen collisions.
 pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
 impl KnownFigures {
     /// Returns the figures of an operation, given the widths of its registers.
-    pub fn of(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
+    pub fn figures(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
         let place = self.places.entry(canonical(op, width));
         let place = *place.or_insert_with_key(|(op, widths)| {
             self.found.push(counted(op, widths));

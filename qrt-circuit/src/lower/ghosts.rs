@@ -22,7 +22,7 @@ use super::super::{Op, Program};
 /// operation changes a register in place, if two operations compute the same register, or if a
 /// register is not returned to zero.
 pub fn with_ghosts(program: &Program) -> Vec<bool> {
-    let Some(runs) = Runs::of(program) else {
+    let Some(runs) = Runs::from_program(program) else {
         return vec![true; program.instructions.len()];
     };
     let mut left = vec![false; program.instructions.len()];
@@ -44,7 +44,7 @@ struct Runs {
 }
 
 impl Runs {
-    fn of(program: &Program) -> Option<Self> {
+    fn from_program(program: &Program) -> Option<Self> {
         // The instruction that computed the content of each register.
         let mut holder: Vec<Option<usize>> = vec![None; program.registers.len()];
         // The last run of each operation: the instructions at which it begins and ends.

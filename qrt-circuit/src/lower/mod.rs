@@ -40,10 +40,10 @@ mod tests;
 mod walk;
 mod wire;
 
-pub use cost::{Cost, cost, costs, tally, toffoli};
+pub use cost::{Cost, Figures, cost, costs, tally, toffoli};
+pub use figures::KnownFigures;
 #[doc(hidden)]
 pub use figures::Quick;
-pub use figures::{Figures, KnownFigures};
 pub use ghosts::with_ghosts;
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,

@@ -2,7 +2,6 @@
 
 use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
 use super::Lowering;
-use super::figures::Shape;
 use std::cell::RefCell;
 use std::convert::Infallible;
 
@@ -141,6 +140,9 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
     lowering.lower(&op);
     lowering.garbage.len() as u32
 }
+
+/// An operation whose registers are numbered in the order in which it names them, and their widths.
+pub(super) type Shape = (Op, Box<[u32]>);
 
 /// Returns an operation whose registers are numbered in the order in which it names them, and their
 /// widths. The width of its garbage register, which is still unknown, is 0.

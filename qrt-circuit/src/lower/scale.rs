@@ -218,7 +218,7 @@ impl Lowering {
             known.push((multiple, whole.split_off(sum.zeros as usize), signed));
         }
         for (&(factor, drop), target) in products.products().iter().zip(targets) {
-            let multiple = Term::of(factor);
+            let multiple = Term::from_number(factor);
             let (own, signed) = multiple_of(&known, multiple.factor);
             let zeros = (a.shift + multiple.shift) as usize;
             for (place, target) in target.iter().enumerate() {

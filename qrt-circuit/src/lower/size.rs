@@ -2,7 +2,7 @@
 
 use super::super::{Circuit, Gate, Program, Qubit};
 #[cfg(doc)]
-use super::figures::Figures;
+use super::cost::Figures;
 use super::figures::KnownFigures;
 use super::place::each_instruction;
 
@@ -23,7 +23,7 @@ pub fn size(program: &Program) -> Size {
     let mut clock = Clock::default();
     let mut in_use = Vec::with_capacity(program.instructions.len());
     let qubits = each_instruction(program, |gates, meanwhile| {
-        clock.run(gates);
+        clock.schedule(gates);
         in_use.push(meanwhile);
     });
     Size {
@@ -38,7 +38,9 @@ pub fn most_qubits(program: &Program) -> u32 {
     let mut known = KnownFigures::default();
     most_qubits_by(program, |op| {
         let op = &program.ops[op];
-        known.of(op, |register| program.width(register)).borrowed
+        known
+            .figures(op, |register| program.width(register))
+            .borrowed
     })
 }
 
@@ -77,7 +79,7 @@ pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32)
 /// take time.
 pub fn depth(circuit: &Circuit) -> u64 {
     let mut clock = Clock::default();
-    clock.run(&circuit.gates);
+    clock.schedule(&circuit.gates);
     clock.latest()
 }
 
@@ -88,7 +90,7 @@ struct Clock {
 }
 
 impl Clock {
-    fn run(&mut self, gates: &[Gate]) {
+    fn schedule(&mut self, gates: &[Gate]) {
         for &gate in gates {
             self.gate(gate);
         }

@@ -7,8 +7,8 @@
 
 use super::super::{Gate, Program, Qubit};
 use super::Lowering;
-use super::figures::{QuickMap, Shape};
-use super::place::{numbered, placed};
+use super::figures::QuickMap;
+use super::place::{Shape, numbered, placed};
 use std::collections::hash_map::Entry;
 
 /// Bytes of a template besides its result: its operation, and its place in a map.
@@ -45,7 +45,7 @@ impl<T> Templates<T> {
         }
     }
 
-    fn of<E>(
+    fn template<E>(
         &mut self,
         key: (Shape, bool),
         make: impl FnOnce(&[Gate], u32) -> Result<(T, usize), E>,
@@ -142,7 +142,7 @@ pub fn try_each_template<T, E>(
         lowering.place_fresh(program, op);
         let (shape, registers) = numbered(op);
         let widths = registers.iter().map(|id| program.width(*id)).collect();
-        let template = templates.of(((shape, widths), instruction.inverse), &mut make)?;
+        let template = templates.template(((shape, widths), instruction.inverse), &mut make)?;
         qubits.clear();
         for register in &registers {
             qubits.extend_from_slice(&lowering.registers[register.index()]);

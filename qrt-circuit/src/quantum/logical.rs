@@ -42,7 +42,7 @@ impl LogicalCounts {
     /// ```
     /// use qrt_circuit::quantum::{LogicalCounts, QuantumGate, Turns};
     /// let eighth = Turns::new(1, 3);
-    /// let counts = LogicalCounts::of(|sink| {
+    /// let counts = LogicalCounts::from_circuit(|sink| {
     ///     sink(QuantumGate::Ccx(0, 1, 2))?;
     ///     sink(QuantumGate::Phase { turns: eighth, on: &[2] })?;
     ///     sink(QuantumGate::Phase { turns: eighth, on: &[0, 2] })
@@ -50,7 +50,7 @@ impl LogicalCounts {
     /// assert_eq!([counts.qubits, counts.toffoli, counts.t], [3, 1, 1]);
     /// assert_eq!([counts.rotations, counts.rotation_depth], [3, 2]);
     /// ```
-    pub fn of(circuit: impl FnOnce(Sink<'_>) -> Result<(), Infallible>) -> Self {
+    pub fn from_circuit(circuit: impl FnOnce(Sink<'_>) -> Result<(), Infallible>) -> Self {
         let mut tally = Tally::default();
         let Ok(()) = circuit(&mut |gate| {
             tally.add(gate);

@@ -34,7 +34,7 @@ impl Role {
 
     /// Returns a register's role. Garbage has a type of its own; a register without a known tag is
     /// work.
-    pub fn of(register: &Register) -> Self {
+    pub fn from_register(register: &Register) -> Self {
         let tagged = |role: &Self| role.tag() == register.tag;
         match register.ty {
             Type::Scratch => Self::Scratch,
@@ -181,7 +181,7 @@ impl Label {
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.
-    pub fn of(block: &Block) -> Self {
+    pub fn from_block(block: &Block) -> Self {
         let Tag(bits) = block.tag;
         let [number, depth, kind] = [
             bits as u32,
@@ -307,7 +307,7 @@ mod tests {
         for stage in Label::PLAIN.into_iter().chain(numbered) {
             for depth in [None, Some(0), Some(1_000)] {
                 let label = Label { stage, depth };
-                assert_eq!(Label::of(&label.block(None)), label);
+                assert_eq!(Label::from_block(&label.block(None)), label);
             }
         }
     }
@@ -325,7 +325,7 @@ mod tests {
                 tag,
                 ..Register::new("r", ty, 1)
             };
-            assert_eq!(Role::of(&register), role);
+            assert_eq!(Role::from_register(&register), role);
         }
     }
 }

@@ -25,9 +25,11 @@
 mod arith;
 mod choice;
 mod divide;
+mod draft;
 mod function;
 mod given;
 mod held;
+mod known;
 mod label;
 mod names;
 mod number;
@@ -41,15 +43,16 @@ mod table;
 mod truth;
 mod value;
 
+pub(crate) use known::{Known, locked};
 pub use label::{Label, PixelWord, Role, StageName};
 pub use names::{NamedPlace, Place};
-pub(crate) use passes::{Known, assemble, locked};
+pub(crate) use passes::assemble;
 pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{Bool, Index, Real};
 
 use crate::tracer::{Coordinate, Named, Segment, WideValue};
+use draft::Draft;
 use names::Nameable;
-use passes::Draft;
 use qrt_circuit::lower::Quick;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
 use qrt_scene::sampling::PathPoints;
@@ -331,7 +334,7 @@ impl<'a> Builder<'a> {
     fn begin(&mut self, stage: StageName, depth: Option<u32>) {
         let id = BlockId(self.blocks.len() as u32);
         let parent = self.block();
-        let depth = depth.or(Label::of(&self.blocks[parent.index()]).depth);
+        let depth = depth.or(Label::from_block(&self.blocks[parent.index()]).depth);
         self.blocks.push(Label { stage, depth }.block(Some(parent)));
         self.open.push(id);
     }

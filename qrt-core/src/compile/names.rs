@@ -136,12 +136,12 @@ impl Place {
                 negated,
                 offset,
             } => Self::Number {
-                word: word.of(rename),
+                word: word.map_register(rename),
                 negated,
                 offset,
             },
-            Self::Truth(bit) => Self::Truth(bit.of(rename)),
-            Self::Index(word) => Self::Index(word.of(rename)),
+            Self::Truth(bit) => Self::Truth(bit.map_register(rename)),
+            Self::Index(word) => Self::Index(word.map_register(rename)),
         }
     }
 

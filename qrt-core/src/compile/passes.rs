@@ -9,182 +9,13 @@
 //!    a scope copies the results that are read outside it and then runs backwards. If qubits cost more than
 //!    gates, [`super::recompute`] orders the instructions.
 
+use super::draft::{Draft, Renamed};
+use super::known::{Known, QuickMap, locked};
 use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
 use qrt_circuit::lower::{self, Figures};
-use qrt_circuit::{
-    Bit, Block, BlockId, Cores, Instruction, KnownSums, Multiples, Op, Program, Register,
-    RegisterId, Style, Word,
-};
-use std::collections::{HashMap, HashSet};
-use std::hash::BuildHasherDefault;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// The data that passes work on.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Draft {
-    pub(super) registers: Vec<Register>,
-    pub(super) blocks: Vec<Block>,
-    pub(super) ops: Vec<(Op, BlockId)>,
-}
-
-/// Cached results about operations, for all programs that are assembled from parts of one recording.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Known {
-    /// The number of threads that compute the results.
-    pub(crate) cores: Cores,
-    /// [`lower::best_low`], by the targets of a table.
-    lows: QuickMap<Box<[RegisterId]>, u32>,
-    /// By the targets of products of one number: the plan that computes them together, if that is cheaper.
-    together: QuickMap<Box<[RegisterId]>, Option<Arc<Multiples>>>,
-    sums: KnownSums,
-    /// The figures of operations that are alike.
-    pub(crate) alike: lower::KnownFigures,
-    /// Figures of operations that no pass changes, by the first register that the operation computes.
-    of_recorded: Vec<Option<Figures>>,
-    /// Figures of tables and products, by the registers that they compute.
-    of_merged: QuickMap<Box<[RegisterId]>, Figures>,
-}
-
-/// A hash map for trusted keys: no protection against chosen collisions.
-pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
-
-/// A hash set for trusted keys.
-pub(super) type QuickSet<T> = HashSet<T, BuildHasherDefault<lower::Quick>>;
-
-/// Maps a recorded register to the copy that replaces it.
-pub(super) type Renamed = QuickMap<RegisterId, RegisterId>;
-
-/// Locks the cache. Entries are complete when inserted, so a poisoned lock is safe to reuse.
-pub(crate) fn locked(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
-    known.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The place where the figures of an operation are kept.
-enum Place {
-    Recorded(usize),
-    Merged(Box<[RegisterId]>),
-    /// Not kept: copies have other numbers in each program.
-    Nowhere,
-}
-
-impl Known {
-    /// The cost of each operation, and the width of its garbage.
-    pub(crate) fn figures<'a>(
-        &mut self,
-        ops: impl Iterator<Item = &'a Op>,
-        registers: &[Register],
-    ) -> Vec<Figures> {
-        let mut figures = Vec::new();
-        let mut unknown = Vec::new();
-        for op in ops {
-            let place = self.place(op);
-            let known = match &place {
-                Place::Recorded(first) => self.of_recorded[*first],
-                Place::Merged(targets) => self.of_merged.get(targets).copied(),
-                Place::Nowhere => None,
-            };
-            if known.is_none() {
-                unknown.push((figures.len(), op, place));
-            }
-            figures.push(known.unwrap_or_default());
-        }
-        let ops: Vec<&Op> = unknown.iter().map(|&(_, op, _)| op).collect();
-        let width = |id: RegisterId| registers[id.index()].width;
-        let found = self.alike.all(&ops, width, self.cores);
-        for ((at, _, place), found) in unknown.into_iter().zip(found) {
-            figures[at] = found;
-            match place {
-                Place::Recorded(first) => self.of_recorded[first] = Some(found),
-                Place::Merged(targets) => {
-                    self.of_merged.insert(targets, found);
-                }
-                Place::Nowhere => {}
-            }
-        }
-        figures
-    }
-
-    fn place(&self, op: &Op) -> Place {
-        if let Op::Table { targets, .. } | Op::Multiples { targets, .. } = op {
-            return Place::Merged(targets.clone());
-        }
-        let first = op.targets().first().map(|target| target.index());
-        match first.filter(|first| *first < self.of_recorded.len()) {
-            Some(first) => Place::Recorded(first),
-            None => Place::Nowhere,
-        }
-    }
-
-    /// Records whether products of one number are computed together, as in `op`.
-    fn decide(&mut self, op: Op, is_cheaper: bool) {
-        if let Op::Multiples {
-            products, targets, ..
-        } = op
-        {
-            self.together
-                .insert(targets, is_cheaper.then_some(products));
-        }
-    }
-}
-
-impl Draft {
-    /// Creates a copy of `register` in `parent`. Returns the copy and the instruction that makes it.
-    pub(super) fn copy(
-        &mut self,
-        register: RegisterId,
-        parent: BlockId,
-    ) -> (RegisterId, Instruction) {
-        let original = self.registers[register.index()].clone();
-        let a = Word {
-            register,
-            offset: 0,
-            width: original.width,
-            signed: false,
-            shift: 0,
-        };
-        let id = RegisterId(self.registers.len() as u32);
-        self.registers.push(Register {
-            name: format!("{}'", original.name),
-            block: parent,
-            ..original
-        });
-        self.ops.push((Op::Copy { a, target: id }, parent));
-        let instruction = Instruction {
-            op: self.ops.len() as u32 - 1,
-            inverse: false,
-            block: parent,
-        };
-        (id, instruction)
-    }
-
-    /// Blocks from `block` to the root.
-    pub(super) fn ancestors(&self, block: BlockId) -> Vec<BlockId> {
-        let mut path = vec![block];
-        let mut at = block;
-        while let Some(parent) = self.blocks[at.index()].parent {
-            path.push(parent);
-            at = parent;
-        }
-        path
-    }
-
-    /// The child of `above` that contains `block`; none if `above` is `block`.
-    fn child_towards(&self, above: BlockId, block: BlockId) -> Option<BlockId> {
-        let path = self.ancestors(block);
-        let place = path.iter().position(|&b| b == above)?;
-        place.checked_sub(1).map(|below| path[below])
-    }
-
-    /// Gives every garbage register the width that its operation needs.
-    pub(super) fn size_scratch(&mut self, known: &Mutex<Known>) {
-        let ops = self.ops.iter().map(|(op, _)| op);
-        let ops = ops.filter(|op| op.scratch().is_some());
-        let figures = locked(known).figures(ops.clone(), &self.registers);
-        for (scratch, figures) in ops.filter_map(Op::scratch).zip(figures) {
-            self.registers[scratch.index()].width = figures.scratch;
-        }
-    }
-}
+use qrt_circuit::{Bit, BlockId, Instruction, Multiples, Op, Program, RegisterId, Style, Word};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
 
 /// Removes the operations that `roots` do not need.
 pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
@@ -337,7 +168,7 @@ const TOGETHER: usize = 12;
 fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {
     // A result in a scope is not available outside the scope.
     let is_scope = |block: &BlockId| {
-        let stage = Label::of(&draft.blocks[block.index()]).stage;
+        let stage = Label::from_block(&draft.blocks[block.index()]).stage;
         strategy.is_scope(stage)
     };
     let mut groups: HashMap<(Word, Option<BlockId>), Vec<usize>> = HashMap::new();
@@ -516,7 +347,7 @@ pub(super) fn schedule(
         }
         items[block.index()].push(Item::Op(place));
     }
-    let scope = |block| strategy.is_scope(Label::of(block).stage);
+    let scope = |block| strategy.is_scope(Label::from_block(block).stage);
     let mut scheduler = Scheduler {
         scopes: draft.blocks.iter().map(scope).collect(),
         draft,

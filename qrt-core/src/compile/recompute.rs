@@ -12,7 +12,8 @@
 //! - a part without garbage whose outputs are all read outside the scope stays as it is, and is not
 //!   computed twice.
 
-use super::passes::{Draft, Known, QuickMap, QuickSet, Renamed, locked};
+use super::draft::{Draft, Renamed};
+use super::known::{Known, QuickMap, QuickSet, locked};
 use super::{Label, StageName, Strategy};
 use qrt_circuit::{BlockId, Instruction, RegisterId};
 use std::collections::BTreeSet;
@@ -125,7 +126,7 @@ fn inverse(instructions: &[Instruction]) -> impl Iterator<Item = Instruction> {
 impl Scheduler<'_> {
     fn block(&mut self, block: BlockId) -> Vec<Instruction> {
         let items = std::mem::take(&mut self.items[block.index()]);
-        let stage = Label::of(&self.draft.blocks[block.index()]).stage;
+        let stage = Label::from_block(&self.draft.blocks[block.index()]).stage;
         let parent = self.draft.blocks[block.index()].parent;
         let is_scope = self.strategy.is_scope(stage);
         let parent = is_scope.then_some(parent.unwrap_or(BlockId::ROOT));

@@ -44,7 +44,7 @@ impl Scope {
     ];
 
     /// The scope of a stage, if it has one.
-    fn of(stage: StageName) -> Option<Self> {
+    fn from_stage(stage: StageName) -> Option<Self> {
         Some(match stage {
             StageName::Plane(_) | StageName::Primitive(_) => Self::Plane,
             StageName::Body(_) => Self::Body,
@@ -138,7 +138,7 @@ impl Strategy {
     }
 
     /// The strategy of a scene's `circuit.uncompute`; none for `auto`, which chooses one.
-    pub fn of(uncompute: Uncompute) -> Option<Self> {
+    pub fn from_uncompute(uncompute: Uncompute) -> Option<Self> {
         let (parts, again) = uncompute.parts()?;
         let kept = Self::of_choices(parts.into());
         Some(match again {
@@ -153,7 +153,7 @@ impl Strategy {
     /// ```
     /// use qrt_core::compile::Strategy;
     /// for strategy in Strategy::all() {
-    ///     assert_eq!(Strategy::of(strategy.uncompute()), Some(strategy));
+    ///     assert_eq!(Strategy::from_uncompute(strategy.uncompute()), Some(strategy));
     /// }
     /// ```
     pub fn uncompute(self) -> Uncompute {
@@ -255,7 +255,7 @@ impl Strategy {
 
     /// True if a block of this stage is a scope.
     pub(super) fn is_scope(self, stage: StageName) -> bool {
-        Scope::of(stage).is_some_and(|scope| self.undoes(scope))
+        Scope::from_stage(stage).is_some_and(|scope| self.undoes(scope))
     }
 
     /// True if no scope is undone before the end.

@@ -75,7 +75,7 @@ impl Inspection {
         let figures = order.into_iter().map(|(place, level)| BlockFigures {
             block: BlockId(place as u32),
             path: path(blocks, place),
-            label: Label::of(&blocks[place]),
+            label: Label::from_block(&blocks[place]),
             level,
             own: own[place][0],
             total: total[place][0],
@@ -97,7 +97,9 @@ fn merged(blocks: &[Block]) -> (Vec<usize>, Vec<Vec<usize>>) {
             continue;
         };
         let parent = one[parent.index()];
-        let first = *known.entry((parent, Label::of(block))).or_insert(place);
+        let first = *known
+            .entry((parent, Label::from_block(block)))
+            .or_insert(place);
         if first == place {
             within[parent].push(place);
         }
@@ -110,9 +112,9 @@ fn path(blocks: &[Block], place: usize) -> String {
     let mut names = Vec::new();
     let mut at = Some(place);
     while let Some(here) = at {
-        let Label { stage, depth } = Label::of(&blocks[here]);
+        let Label { stage, depth } = Label::from_block(&blocks[here]);
         let parent = blocks[here].parent.map(BlockId::index);
-        let around = parent.and_then(|parent| Label::of(&blocks[parent]).depth);
+        let around = parent.and_then(|parent| Label::from_block(&blocks[parent]).depth);
         match depth {
             Some(depth) if around != Some(depth) => names.push(format!("{stage} {depth}")),
             _ => names.push(stage.to_string()),

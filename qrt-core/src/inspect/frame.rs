@@ -69,7 +69,7 @@ enum Bundle {
 
 impl Frame {
     /// The frame of an inspected call.
-    pub fn of(inspection: &Inspection) -> Self {
+    pub fn new(inspection: &Inspection) -> Self {
         let stages = inspection.stages();
         let bundles = bundles(inspection, &stages);
         let place = |register: RegisterId| bundles[register.index()];
@@ -164,16 +164,17 @@ fn bundles(inspection: &Inspection, stages: &[Stage]) -> Vec<Bundle> {
             }
         }
     }
-    let bundle = |(n, register): (usize, &qrt_circuit::Register)| match Role::of(register) {
-        Role::Id => Bundle::Id,
-        Role::Comparator => Bundle::Comparator,
-        Role::Colour => Bundle::Colour,
-        Role::Flag => Bundle::Flag,
-        Role::Work | Role::Scratch => match made[n] {
-            Some(stage) if shared[n] => Bundle::Of(stage),
-            _ => Bundle::Work,
-        },
-    };
+    let bundle =
+        |(n, register): (usize, &qrt_circuit::Register)| match Role::from_register(register) {
+            Role::Id => Bundle::Id,
+            Role::Comparator => Bundle::Comparator,
+            Role::Colour => Bundle::Colour,
+            Role::Flag => Bundle::Flag,
+            Role::Work | Role::Scratch => match made[n] {
+                Some(stage) if shared[n] => Bundle::Of(stage),
+                _ => Bundle::Work,
+            },
+        };
     registers.iter().enumerate().map(bundle).collect()
 }
 

@@ -42,7 +42,7 @@ pub struct Layout {
 
 impl Layout {
     /// Lays out a program. Inputs come first and stay.
-    pub fn of(program: &Program) -> Self {
+    pub fn new(program: &Program) -> Self {
         let end = program.instructions.len();
         let mut layout = Self {
             offsets: vec![None; program.registers.len()],
@@ -93,7 +93,7 @@ impl Layout {
         register: RegisterId,
         instructions: Range<usize>,
     ) {
-        let offset = free.take(program.width(register));
+        let offset = free.allocate(program.width(register));
         self.offsets[register.index()].get_or_insert(offset);
         alive[register.index()] = Some(self.lifetimes.len());
         self.lifetimes.push(Lifetime {
@@ -113,7 +113,7 @@ struct Free {
 
 impl Free {
     /// Allocates the lowest free run of `width` qubits.
-    fn take(&mut self, width: u32) -> u32 {
+    fn allocate(&mut self, width: u32) -> u32 {
         let found = self.runs.iter().find(|&(_, &length)| length >= width);
         if let Some((&start, &length)) = found {
             self.runs.remove(&start);
@@ -161,17 +161,17 @@ mod tests {
     #[test]
     fn what_was_given_back_is_taken_again_from_below() {
         let mut free = Free::default();
-        assert_eq!([4, 3, 2].map(|width| free.take(width)), [0, 4, 7]);
+        assert_eq!([4, 3, 2].map(|width| free.allocate(width)), [0, 4, 7]);
         free.give(4, 3);
-        assert_eq!(free.take(4), 9);
-        assert_eq!(free.take(2), 4);
+        assert_eq!(free.allocate(4), 9);
+        assert_eq!(free.allocate(2), 4);
         free.give(0, 4);
         free.give(4, 2);
-        assert_eq!(free.take(7), 0);
+        assert_eq!(free.allocate(7), 0);
         assert_eq!(free.top, 13);
         free.give(9, 4);
         assert_eq!(
-            free.take(6),
+            free.allocate(6),
             9,
             "what is free at the top is a part of what comes above"
         );
@@ -224,7 +224,7 @@ mod tests {
             }
             undo.truncate((seed % (length as u64 + 1)) as usize);
             let program = program(&widths, &undo);
-            let layout = Layout::of(&program);
+            let layout = Layout::new(&program);
             prop_assert_eq!(layout.lifetimes.len(), widths.len());
             for (n, a) in layout.lifetimes.iter().enumerate() {
                 let top = a.offset + program.width(a.register);

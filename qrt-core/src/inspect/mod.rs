@@ -104,7 +104,7 @@ impl Inspection {
             toffoli_depth: size.depth,
             qubits: size.qubits,
             in_use: size.in_use,
-            layout: Layout::of(&whole),
+            layout: Layout::new(&whole),
             name: OracleName {
                 channel,
                 class: options.class,
@@ -167,7 +167,7 @@ impl Inspection {
             film.width,
             film.height
         );
-        let class = PixelClasses::new(scene).of(pixel.place);
+        let class = PixelClasses::new(scene).class(pixel.place);
         let mut inspection = Self::new(scene, channel, Options::of_class(class))?;
         pixel.build_in(&inspection.oracle, &inspection.whole, &mut inspection.costs);
         inspection.pixel = Some(pixel);
@@ -269,7 +269,7 @@ impl Inspection {
                 let register = &self.whole.registers[lifetime.register.index()];
                 let place = Role::ALL
                     .iter()
-                    .position(|&role| role == Role::of(register));
+                    .position(|&role| role == Role::from_register(register));
                 roles[place.unwrap_or_default()] += register.width;
             }
         }

@@ -17,7 +17,7 @@ impl OraclePixel {
     /// Subtracts from the costs of a call's instructions the X gates that this pixel does not have:
     /// a parameter's bit is an X where it is 1, and no gate where it is 0.
     pub(super) fn build_in(&self, oracle: &Oracle, whole: &Program, costs: &mut [Cost]) {
-        let words = oracle.words(self.seed, self.place);
+        let words = oracle.parameter_words(self.seed, self.place);
         let zeros = |parameter: u32, target: RegisterId| {
             let width = whole.width(target);
             let word = words.get(parameter as usize).copied().unwrap_or(0);

@@ -75,7 +75,7 @@ impl Inspection {
         for (block, instructions) in self.runs() {
             let (name, depth) = match (block, stages.last_mut()) {
                 (Some(block), _) => {
-                    let label = Label::of(&self.whole.blocks[block.index()]);
+                    let label = Label::from_block(&self.whole.blocks[block.index()]);
                     (label.stage, label.depth)
                 }
                 (None, Some(before)) if before.name == StageName::FindIntersection => {

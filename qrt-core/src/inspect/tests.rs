@@ -89,7 +89,7 @@ fn the_boxes_are_those_of_the_paper_and_their_inverses() {
 #[test]
 fn wires_are_computed_once_and_returned() {
     for inspection in both() {
-        let frame = Frame::of(&inspection);
+        let frame = Frame::new(&inspection);
         let names: Vec<&str> = frame.wires.iter().map(|wire| wire.name.as_str()).collect();
         assert_eq!(names[..3], ["id", "comparator", "ray_0"]);
         assert_eq!(names[names.len() - 2..], ["flag", "work"]);

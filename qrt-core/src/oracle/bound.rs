@@ -66,7 +66,7 @@ pub struct BoundProgram {
 impl Oracle {
     /// The program in pixel (column, row), under the seed that shifts its paths.
     pub fn program_at(&self, seed: u64, pixel: [u32; 2]) -> BoundProgram {
-        let program = match self.program.bound(&self.words(seed, pixel)) {
+        let program = match self.program.bound(&self.parameter_words(seed, pixel)) {
             Ok(program) => program,
             // Unreachable: the parameters are the program's own.
             Err(error) => unreachable!("{error}"),

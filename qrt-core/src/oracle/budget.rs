@@ -51,7 +51,7 @@ pub(super) fn figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<Figure
     // Each channel compares a number of its own, into the same flag.
     let flip = oracle.flip_steps(0);
     let width = |register| program.width(register);
-    figures.extend(flip.ops.iter().map(|op| known.alike.of(op, width)));
+    figures.extend(flip.ops.iter().map(|op| known.alike.figures(op, width)));
     figures
 }
 
@@ -214,7 +214,7 @@ geometry: [quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], mate
             assert_eq!(codes, [codes::BUDGET_QUBITS, codes::BUDGET_TOFFOLI]);
             for (problem, advice) in problems.iter().zip(advice) {
                 assert!(
-                    problem.words().help.unwrap().contains(advice),
+                    problem.description().help.unwrap().contains(advice),
                     "{problem:?}"
                 );
             }

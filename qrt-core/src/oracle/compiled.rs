@@ -141,7 +141,7 @@ impl Outline {
         };
         let blocks = self.blocks.iter().map(block).collect();
         let parameters = self.parameters.iter().map(PixelWord::parameter).collect();
-        Recorder::of(self.registers, blocks, parameters, self.style)
+        Recorder::with_registers(self.registers, blocks, parameters, self.style)
     }
 
     /// Sorts the operations of a recorded program into the order of the outline.
@@ -306,7 +306,7 @@ impl<'a, S: CompiledOracle, R> Computed<'a, S, R> {
     /// The bits of a field, as operations read them.
     #[inline(always)]
     pub fn word<O: IsScene<S>, T: Format>(&self, field: &Field<O, T>) -> Word<&'a R> {
-        field.word.of(|_| self.fields[field.place])
+        field.word.map_register(|_| self.fields[field.place])
     }
 
     /// Calls `apply` with a field as a register of its format, for reversible functions. The register is a

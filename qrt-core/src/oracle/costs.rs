@@ -82,7 +82,7 @@ pub struct OracleCost {
 impl OracleCost {
     /// The cost of a call of `oracle`, which has that `name`. `known` caches the figures of
     /// operations.
-    pub(super) fn of(name: OracleName, oracle: &Oracle, known: &mut compile::Known) -> Self {
+    pub(super) fn new(name: OracleName, oracle: &Oracle, known: &mut compile::Known) -> Self {
         let figures = budget::figures(oracle, known);
         let call = budget::cost_by(oracle, &figures);
         Self { name, call }
@@ -220,7 +220,7 @@ fn costs_of(
         let oracles = Cores::All.map(names, 1, |name| recording.oracle(&[name.channel]));
         let known = &mut recording.known();
         let named = names.iter().zip(&oracles);
-        costs.extend(named.map(|(&name, oracle)| OracleCost::of(name, oracle, known)));
+        costs.extend(named.map(|(&name, oracle)| OracleCost::new(name, oracle, known)));
     }
     Ok(costs)
 }

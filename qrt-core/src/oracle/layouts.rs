@@ -237,7 +237,7 @@ impl<'a> Layouts<'a> {
 /// The strategy of a scene's circuits. `auto` is the cheapest strategy for the most expensive oracle under
 /// which all oracles fit into `budget.qubits`. It is searched once per scene.
 pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
-    if let Some(strategy) = Strategy::of(scene.scene().circuit.uncompute) {
+    if let Some(strategy) = Strategy::from_uncompute(scene.scene().circuit.uncompute) {
         return Ok(strategy);
     }
     let all = Strategy::all();

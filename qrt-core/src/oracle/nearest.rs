@@ -1,7 +1,7 @@
 //! The oracle of nearest hits, which marks the faces that a ray meets nearer than the nearest
 //! known.
 
-use super::recording::target;
+use super::target::target;
 use super::{Options, OracleError, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
 use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
@@ -144,8 +144,8 @@ impl NearestOracle {
             primitive,
             best_distance,
             best_primitive,
-            distance: distance.of(rename),
-            nearer: nearer.map(|bit| bit.of(rename)),
+            distance: distance.map_register(rename),
+            nearer: nearer.map(|bit| bit.map_register(rename)),
             t_max: most.cast_unsigned(),
             labels: list.labels().to_vec(),
             fraction,
@@ -154,7 +154,7 @@ impl NearestOracle {
     }
 
     /// The parameters of pixel (column, row).
-    pub fn words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
+    pub fn parameter_words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
         let words = self.parameters.iter();
         words
             .map(|word| word.value(&self.points, seed, pixel))

@@ -215,13 +215,13 @@ fn above(most: f64) -> i32 {
 impl PathFormats {
     /// The formats of a scene's paths; none if the scene is too large for 62 bits before the point.
     pub fn new(scene: &ValidScene) -> Option<Self> {
-        Self::of(
+        Self::from_stage(
             scene,
             &Stage::new(scene, [0, 1, 2], PixelClass::MayMeetLamp),
         )
     }
 
-    fn of(scene: &ValidScene, stage: &Stage<3>) -> Option<Self> {
+    fn from_stage(scene: &ValidScene, stage: &Stage<3>) -> Option<Self> {
         let fraction = scene.scene().precision.fraction.unwrap_or(DEFAULT_FRACTION);
         let geometry = stage.geometry();
         let scale = geometry.scale;

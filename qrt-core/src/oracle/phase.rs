@@ -26,7 +26,7 @@ impl Oracle {
             return Err(QuantumError::NoChannel(channel));
         }
         let whole = self.whole(channel);
-        let words = self.words(seed, pixel);
+        let words = self.parameter_words(seed, pixel);
         let widths = whole.registers.iter();
         let bits: u64 = widths.map(|register| u64::from(register.width)).sum();
         if bits > MOST_BITS {
@@ -73,7 +73,7 @@ mod tests {
         };
         for channel in 0..3 {
             let held = oracle.phase(channel, 7, [2, 1]).unwrap();
-            let words = oracle.words(7, [2, 1]);
+            let words = oracle.parameter_words(7, [2, 1]);
             let inputs = [oracle.id, oracle.comparator];
             let lowered = PhaseOracle::lowered(oracle.whole(channel), &inputs, &words).unwrap();
             assert_eq!(lowered.superposed(), held.superposed());

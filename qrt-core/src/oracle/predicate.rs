@@ -100,7 +100,7 @@ impl Predicate {
     ///
     /// # Panics
     /// If the code puts another recorder in the place of its own.
-    pub fn of<S: PathScene>(
+    pub fn record<S: PathScene>(
         predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
     ) -> Result<Self, PredicateError> {
         let scene = S::scene();
@@ -268,7 +268,7 @@ fn last_block(program: &Program) -> BlockId {
     let blocks = program
         .blocks
         .iter()
-        .rposition(|block| Label::of(block).stage == StageName::Predicate);
+        .rposition(|block| Label::from_block(block).stage == StageName::Predicate);
     BlockId(blocks.unwrap_or(0) as u32)
 }
 

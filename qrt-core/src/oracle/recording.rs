@@ -1,11 +1,11 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
 use super::nearest::fits_table;
+use super::target::target;
 use super::{
-    Channel, DEFAULT_FRACTION, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, faces,
-    luminance, register_of,
+    Channel, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, luminance, register_of,
 };
-use crate::compile::{self, Builder, NamedPlace, Passes, Real, Recorded, Role, Strategy, Target};
+use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Strategy};
 use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
@@ -26,25 +26,6 @@ pub(super) enum PrimaryHit {
     Traced,
     /// The primary hit is given in a register.
     Given,
-}
-
-/// The settings with which a program of `scene` is built.
-pub(super) fn target<'a, const C: usize>(
-    scene: &ValidScene,
-    stage: &Stage<C>,
-    points: &'a PathPoints,
-    strategy: Strategy,
-    passes: Passes,
-) -> Target<'a> {
-    let written = scene.scene();
-    Target {
-        fraction: written.precision.fraction.unwrap_or(DEFAULT_FRACTION),
-        strategy,
-        points,
-        film: [written.film.width, written.film.height],
-        faces: faces(stage),
-        passes,
-    }
 }
 
 /// The colours of a path, and the register of its primary hit if the hit is an input.
@@ -245,7 +226,7 @@ impl Recording {
         for named in &places {
             let id = named.place.register();
             let register = &mut program.registers[id.index()];
-            if Role::of(register) == Role::Work && called.insert(id) {
+            if Role::from_register(register) == Role::Work && called.insert(id) {
                 register.name = named.to_string();
             }
         }

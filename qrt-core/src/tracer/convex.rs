@@ -8,8 +8,8 @@
 //! If faces are missing, such as the underside of a box that stands on a floor, the edges of the hole lie
 //! in a plane of their own. This plane bounds the body like the others, and has no face.
 
-use super::geometry::{Geometry, Plane};
-use super::polygon::plane_of;
+use super::geometry::Geometry;
+use super::polygon::{Plane, plane_of};
 use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE};
 use std::collections::HashMap;
@@ -129,7 +129,7 @@ impl Edges {
     }
 
     /// The edges of a face, in the order of its corners.
-    pub(super) fn of(&self, place: usize) -> impl Iterator<Item = [u32; 2]> {
+    pub(super) fn of_face(&self, place: usize) -> impl Iterator<Item = [u32; 2]> {
         of_outline(&self.corners[place])
     }
 
@@ -170,7 +170,7 @@ impl Groups {
         Self((0..count).collect())
     }
 
-    fn of(&mut self, number: usize) -> usize {
+    fn find(&mut self, number: usize) -> usize {
         let mut at = number;
         while self.0[at] != at {
             self.0[at] = self.0[self.0[at]];
@@ -180,7 +180,7 @@ impl Groups {
     }
 
     fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.of(a), self.of(b));
+        let (a, b) = (self.find(a), self.find(b));
         self.0[a.max(b)] = a.min(b);
     }
 
@@ -189,7 +189,7 @@ impl Groups {
         let mut place = HashMap::new();
         let mut sets: Vec<Vec<usize>> = Vec::new();
         for member in members {
-            let group = self.of(member);
+            let group = self.find(member);
             let place = *place.entry(group).or_insert_with(|| {
                 sets.push(Vec::new());
                 sets.len() - 1
@@ -308,7 +308,7 @@ impl Finder<'_> {
     fn holes(&self, component: &[usize]) -> Option<Vec<Vec<u32>>> {
         let mut open: Vec<[u32; 2]> = Vec::new();
         for &place in component {
-            for edge in self.edges.of(place) {
+            for edge in self.edges.of_face(place) {
                 match *self.edges.faces_at(edge) {
                     [_] => open.push(edge),
                     [a, b] if !self.edges.fold(self.geometry, edge, [a, b]) => {}

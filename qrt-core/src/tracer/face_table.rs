@@ -6,8 +6,9 @@
 //! a ray and a plane ([`super::cross`]), and the test that it lies within the edges.
 
 use super::crossing::{AxisPermuted, Crossing, cross};
-use super::geometry::{EdgeTest, NO_FACE};
+use super::geometry::NO_FACE;
 use super::intersect::{Edges, meets};
+use super::polygon::EdgeTest;
 use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Stage};
 use std::cell::Cell;

@@ -1,7 +1,8 @@
 //! The frame itself: the paper's `Path Tracing`, stage by stage.
 
 use super::bsdf::Vertex;
-use super::lights::{Departure, Leaves, LightStage, Lighting};
+use super::lighting::{Leaves, Lighting};
+use super::lights::{Departure, LightStage};
 use super::ray::{Nearest, Ray, Segment, Start};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Part, Quantity, Stage};

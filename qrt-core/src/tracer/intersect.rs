@@ -5,7 +5,8 @@
 //! the whole line there. So no epsilon is needed to leave a surface.
 
 use super::crossing::{AxisPermuted, Crossing, cross, weighted};
-use super::geometry::{EdgeTest, Face, Geometry, NO_FACE};
+use super::geometry::{Face, Geometry, NO_FACE};
+use super::polygon::EdgeTest;
 use super::ray::{Hit, Nearest, Ray};
 use super::{Arith, Part};
 

@@ -22,12 +22,11 @@
 //!
 //! (Veach & Guibas 1995; Shirley, Wang & Zimmerman 1996.)
 
-use super::bsdf::{Lit, ScatterStage, Vertex};
 use super::geometry::Geometry;
 use super::places::Places;
-use super::ray::{Nearest, Ray, Start};
-use super::vector::{self, Vector};
-use super::{Arith, Coordinate, Part, Sampled, Work};
+use super::radiance::in_units;
+use super::vector::Vector;
+use super::{Arith, Coordinate, Sampled};
 use qrt_scene::Lights;
 use qrt_scene::lights::{self, Lamp, Reached};
 use qrt_scene::valid::Surface;
@@ -109,7 +108,7 @@ impl Lamps {
 /// The sampling of lamps at the vertices that the rays of one depth leave.
 #[derive(Clone, Debug)]
 pub(crate) struct LightStage<const C: usize> {
-    depth: usize,
+    pub(super) depth: usize,
     bits: [u32; 2],
     /// By column of the first coordinate: the lamp, and the place along its first edge.
     lamp_of: Vec<u32>,
@@ -119,17 +118,17 @@ pub(crate) struct LightStage<const C: usize> {
     /// By lamp: 1 if it is a triangle, else 0.
     triangles: Vec<u32>,
     /// By lamp: its normal, and the distance of its plane from the origin along the normal.
-    normals: Vec<[f64; 4]>,
+    pub(super) normals: Vec<[f64; 4]>,
     /// By lamp: area over probability and pi.
-    areas: Vec<[f64; 1]>,
+    pub(super) areas: Vec<[f64; 1]>,
     /// By lamp: the radiance of its front.
-    radiance: Vec<[f64; C]>,
+    pub(super) radiance: Vec<[f64; C]>,
     /// By lamp: its surface, and its face.
     surfaces: Vec<u32>,
     faces: Vec<u32>,
     /// By face: the entry of `areas` if the face is a lamp, else 0.
     area_of_face: Vec<[f64; 1]>,
-    receivers: Receivers,
+    pub(super) receivers: Receivers,
     /// By place and lamp: a bound of the factor `F` or `G`.
     factors: Vec<Vec<f64>>,
     /// The greatest of these for surfaces whose own rays do not count.
@@ -138,11 +137,22 @@ pub(crate) struct LightStage<const C: usize> {
     near: bool,
 }
 
+/// The properties of a surface's scattering that the sampling of lamps depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Receiver {
+    /// True if the surface scatters.
+    pub(crate) scatters: bool,
+    /// True if the density of the directions that the surface samples is known.
+    pub(crate) samples_lights: bool,
+    /// True if the surface is a Lambertian under the cosine map, whose weight is its albedo.
+    pub(crate) is_projected: bool,
+}
+
 /// The reception of lamps' light, by surface.
 #[derive(Clone, Debug)]
-struct Receivers {
+pub(super) struct Receivers {
     /// 1 if the surface samples lamps, else 0.
-    samples: Vec<u32>,
+    pub(super) samples: Vec<u32>,
     /// 1 if the surface's own rays that meet a lamp count, weighted; else 0.
     weighs: Vec<u32>,
     /// True if all surfaces that scatter sample lamps.
@@ -193,20 +203,18 @@ impl Receivers {
 }
 
 impl<const C: usize> LightStage<C> {
-    /// Prepares the sampling; none if no surface samples a lamp, or if there is no lamp.
+    /// Prepares the sampling; none if no surface samples a lamp, or if there is no lamp. The
+    /// `receivers` are by surface.
     pub(super) fn new(
         (lamps, places): (&Lamps, &Places),
-        surfaces: &[&Surface],
         radiance: &[[f64; C]],
         surface_of: &[u32],
-        scatter: &ScatterStage<C>,
+        receivers: &[Receiver],
         (depth, bits, mode): (usize, [u32; 2], Lights),
     ) -> Option<Self> {
         let columns = lights::columns(&lamps.powers, bits[0])?;
         let all = f64::from(1_u32 << bits[0]);
-        let samples: Vec<bool> = (0..surfaces.len() as u32)
-            .map(|surface| scatter.samples_lights(surface))
-            .collect();
+        let samples: Vec<bool> = receivers.iter().map(|r| r.samples_lights).collect();
         if !samples.contains(&true) {
             return None;
         }
@@ -230,7 +238,7 @@ impl<const C: usize> LightStage<C> {
                 Lights::Auto => greatest <= 1.0,
                 Lights::NextEvent => greatest.is_finite(),
             };
-            let matte = scatter.is_projected(surface as u32);
+            let matte = receivers[surface].is_projected;
             let alone = alone && matte;
             if samples && alone {
                 most = most.max(greatest);
@@ -249,7 +257,7 @@ impl<const C: usize> LightStage<C> {
                 let direct = forms[place] * area;
                 if direct == 0.0 {
                     0.0
-                } else if !scatter.is_projected(surface) {
+                } else if !receivers[surface as usize].is_projected {
                     1.0
                 } else if !weighs[surface as usize] {
                     direct
@@ -281,8 +289,7 @@ impl<const C: usize> LightStage<C> {
         }
         let surface_of_lamp = lamps.faces.iter().map(|&face| surface_of[face as usize]);
         let surface_of_lamp: Vec<u32> = surface_of_lamp.collect();
-        let numbers = 0..surfaces.len() as u32;
-        let scatters: Vec<bool> = numbers.map(|surface| scatter.scatters(surface)).collect();
+        let scatters: Vec<bool> = receivers.iter().map(|r| r.scatters).collect();
         Some(Self {
             depth,
             bits,
@@ -308,7 +315,7 @@ impl<const C: usize> LightStage<C> {
 
     /// Converts radiance to `units`.
     pub(super) fn in_units(&mut self, units: [f64; C]) {
-        super::bsdf::in_units(&mut self.radiance, units);
+        in_units(&mut self.radiance, units);
     }
 
     /// An upper bound of the factor for the emission of `other` on a ray of this depth from `place`.
@@ -357,7 +364,7 @@ impl<const C: usize> LightStage<C> {
 
     /// The point on a lamp, seen from `origin`.
     #[inline(always)]
-    fn point<A: Arith>(&self, cx: &mut A, origin: &Vector<A>) -> Point<A> {
+    pub(super) fn point<A: Arith>(&self, cx: &mut A, origin: &Vector<A>) -> Point<A> {
         let u = cx.coordinate(Coordinate::light_u(self.depth));
         let v = cx.coordinate(Coordinate::light_v(self.depth));
         let lamp = if self.places.len() == 1 {
@@ -479,97 +486,11 @@ impl<const C: usize> LightStage<C> {
     }
 }
 
-/// The light of a point on a lamp that the paths at a vertex reflect towards the camera, per channel;
-/// none if none do.
-pub(super) struct Lighting<'a, A: Arith, N, const C: usize> {
-    pub(super) lights: &'a LightStage<C>,
-    pub(super) scatter: &'a ScatterStage<C>,
-    pub(super) nearest: &'a N,
-    pub(super) at: &'a Vertex<A>,
-    pub(super) leaves: &'a Leaves<A>,
-    /// The throughput of the paths before the vertex.
-    pub(super) throughput: Option<[A::Real; C]>,
-}
-
-impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> {
-    type Output = Option<[A::Real; C]>;
-
-    #[inline(always)]
-    fn run(self, cx: &mut A) -> Self::Output {
-        let Self {
-            lights,
-            scatter,
-            nearest,
-            at,
-            leaves,
-            throughput,
-        } = self;
-        cx.enter(Part::SampleLight(lights.depth));
-        let origin = &leaves.origin;
-        let point = lights.point(cx, origin);
-        let [mx, my, mz, height] = cx.rows(&lights.normals, point.lamp);
-        let rise = math!(cx, dot(at.normal, point.to));
-        let rise = math!(cx, max(select(at.front, rise, -rise), 0.0));
-        let fall = math!(cx, max(dot([mx, my, mz], *origin) - height, 0.0));
-        let lit = cx.entry(&lights.receivers.samples, at.surface);
-        let lit = cx.is(lit, 1);
-        let both = math!(cx, rise * fall);
-        // If `both` is 0, the divisors may be 0 too: coarse numbers soon are.
-        let wanted = math!(cx, at.alive && lit && 0.0 < both);
-        if !cx.any(wanted) {
-            cx.leave();
-            return None;
-        }
-        let [area] = cx.rows(&lights.areas, point.lamp);
-        let square = math!(cx, dot(point.to, point.to));
-        let Lit { weight, factor } = scatter.light(
-            cx,
-            at,
-            &Towards {
-                to: point.to,
-                rise,
-                fall,
-                both,
-                square,
-                area,
-            },
-            lights,
-        );
-        let weight = match throughput {
-            Some(throughput) => vector::mul(cx, &throughput, &weight),
-            None => weight,
-        };
-        let radiance = cx.rows(&lights.radiance, point.lamp);
-        let light = vector::mul(cx, &weight, &radiance);
-        let light = vector::scale(cx, &light, factor);
-        cx.leave();
-        cx.enter(Part::Shadow(lights.depth));
-        let ray = Ray {
-            origin: *origin,
-            direction: point.to,
-            from: leaves.from,
-            t_max: 1.0,
-            start: Start::Surface,
-        };
-        let hidden = nearest.occluded(cx, &ray, point.lamp, wanted);
-        cx.leave();
-        let shown = math!(cx, wanted && !hidden);
-        let none = [cx.real(0.0); C];
-        Some(vector::select(cx, shown, &light, &none))
-    }
-}
-
-/// The start of the rays that leave a vertex: a point, and the plane that it is on.
-pub(super) struct Leaves<A: Arith> {
-    pub(super) origin: Vector<A>,
-    pub(super) from: A::Index,
-}
-
 /// A point on a lamp.
-struct Point<A: Arith> {
-    lamp: A::Index,
+pub(super) struct Point<A: Arith> {
+    pub(super) lamp: A::Index,
     /// From the vertex to the point; not of unit length.
-    to: Vector<A>,
+    pub(super) to: Vector<A>,
 }
 
 /// The way from a vertex to a point on a lamp.

@@ -98,7 +98,7 @@ impl PixelClasses {
     }
 
     /// The class of pixel (column, row).
-    pub fn of(&self, [x, y]: [u32; 2]) -> PixelClass {
+    pub fn class(&self, [x, y]: [u32; 2]) -> PixelClass {
         let Some(outlines) = &self.outlines else {
             return PixelClass::MayMeetLamp;
         };
@@ -121,7 +121,7 @@ impl PixelClasses {
     ) -> Result<Vec<T>, E> {
         let mut all: Vec<Option<T>> = pixels.iter().map(|_| None).collect();
         for &class in self.present() {
-            let places = (0..pixels.len()).filter(|&place| self.of(pixels[place]) == class);
+            let places = (0..pixels.len()).filter(|&place| self.class(pixels[place]) == class);
             let places: Vec<usize> = places.collect();
             let mine: Vec<[u32; 2]> = places.iter().map(|&place| pixels[place]).collect();
             if mine.is_empty() {

@@ -1,8 +1,83 @@
 //! One polygon prepared for intersection: its plane, its shading frame and its edges as half-plane tests.
 
-use super::geometry::{EdgeTest, Frame, Plane};
 use glam::{DVec2, DVec3};
 use qrt_scene::polygons::main_axis;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// The eye is on a plane if it is nearer than this, in stage units and relative to 1 plus its height.
+const ON_PLANE: f64 = 1.0 / (1_u64 << 46) as f64;
+
+/// `low <= a p[axis + 1] + b p[axis + 2] <= high`, for a point of a plane with main axis `axis`
+/// (axes are counted cyclically). The greater of `|a|`, `|b|` is 1; a bound may be infinite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeTest {
+    /// The coefficients `a` and `b`.
+    pub form: [f64; 2],
+    /// The least value of the form inside; may be -infinity.
+    pub low: f64,
+    /// The greatest value of the form inside; may be infinity.
+    pub high: f64,
+}
+
+/// The plane `p[axis] + a p[axis + 1] + b p[axis + 2] = offset` (axes are counted cyclically), and
+/// the faces on it. Neither `|a|` nor `|b|` exceeds 1; an axis-aligned plane has zeros, which cost
+/// a circuit nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// The main axis: that of the normal's greatest component.
+    pub axis: usize,
+    /// The coefficients `a` and `b`.
+    pub form: [f64; 2],
+    /// The plane's offset along its main axis, in stage units.
+    pub offset: f64,
+    /// The range of [`Geometry::faces`](super::Geometry::faces) that lies on the plane.
+    pub faces: Range<usize>,
+    /// The numbers of its emitting faces: they are counted in the order of
+    /// [`Geometry::faces`](super::Geometry::faces).
+    pub emitters: Range<u32>,
+    /// True if all corners of the scene are on one side of the plane or on it. Nothing on the plane then
+    /// stands between two points of the scene.
+    pub outermost: bool,
+}
+
+impl Plane {
+    /// The offset of the plane of this form through `point`, computed as the tracer does. The difference
+    /// from [`Plane::offset`] is then exactly zero.
+    pub(super) fn height(&self, point: [f64; 3]) -> f64 {
+        let [along, first, second] = [0, 1, 2].map(|k| point[(self.axis + k) % 3]);
+        let [a, b] = self.form;
+        along + (a * first + b * second)
+    }
+
+    /// True if the plane passes through `point`, within rounding.
+    pub(super) fn passes(&self, point: [f64; 3]) -> bool {
+        let height = self.height(point);
+        (self.offset - height).abs() <= ON_PLANE * (1.0 + height.abs())
+    }
+
+    /// Compares planes by main axis, coefficients and offset.
+    pub(super) fn cmp_place(&self, other: &Self) -> Ordering {
+        let key = |plane: &Self| [plane.form[0], plane.form[1], plane.offset];
+        let pairs = key(self).into_iter().zip(key(other));
+        // -0 and 0 are one coefficient.
+        let by_numbers = pairs.map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
+        by_numbers.fold(self.axis.cmp(&other.axis), Ordering::then)
+    }
+}
+
+/// A face's frame: tangents, normal (the front) and centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The unit tangent, orthogonal to the normal.
+    pub tangent: DVec3,
+    /// The unit bitangent, orthogonal to both others.
+    pub bitangent: DVec3,
+    /// The unit normal, along `(v1 - v0) x (v2 - v0)`.
+    pub normal: DVec3,
+    /// The mean of the corners, in stage units.
+    pub centre: DVec3,
+}
 
 pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
     let axis = main_axis(frame.normal);

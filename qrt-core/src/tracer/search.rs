@@ -20,8 +20,9 @@ mod plan;
 
 use super::convex::{self, Edges};
 use super::crossing::{AxisPermuted, rise, slope};
-use super::geometry::{Geometry, NO_FACE, Plane};
+use super::geometry::{Geometry, NO_FACE};
 use super::intersect::{constants, meets, within};
+use super::polygon::Plane;
 use super::ray::{Hit, Nearest, Ray, Start};
 use super::{Arith, Part, Stage};
 use plan::{Facet, Met, MetBound, Outer, Plan, Planner, Starts};
@@ -86,7 +87,7 @@ impl<A: Arith> Running<A> {
         }
     }
 
-    fn take(&mut self, cx: &mut A, when: A::Bool, other: &Self) {
+    fn replace(&mut self, cx: &mut A, when: A::Bool, other: &Self) {
         self.distance = cx.select(when, other.distance, self.distance);
         self.face = cx.select_index(when, other.face, self.face);
         self.front = cx.select_truth(when, other.front, self.front);
@@ -220,7 +221,7 @@ impl Search<'_> {
             face: cx.select_index(falls, a.2, b.2),
             front: cx.select_truth(falls, a.3, b.3),
         };
-        nearest.take(cx, hit, &here);
+        nearest.replace(cx, hit, &here);
         let [down, up] = [1, 0].map(|k| {
             let outwards = outer.sides[k].as_ref().is_some_and(|side| side.outwards);
             cx.truth(outwards)
@@ -276,7 +277,7 @@ impl Search<'_> {
                     here.front = self.front(cx, label, falls);
                 }
                 let later = math!(cx, enters && entry.distance <= here.distance);
-                entry.take(cx, later, &here);
+                entry.replace(cx, later, &here);
                 entered = math!(cx, entered || enters);
             }
             if bound.left {
@@ -287,7 +288,7 @@ impl Search<'_> {
                         here.front = self.front(cx, label, falls);
                     }
                     let earlier = math!(cx, leaves && here.distance < exit.distance);
-                    exit.take(cx, earlier, &here);
+                    exit.replace(cx, earlier, &here);
                 } else {
                     exits.push((bound, leaves, here.distance));
                 }
@@ -304,7 +305,7 @@ impl Search<'_> {
                 cx,
                 (meets && entry.distance < exit.distance) && !(none[0] && none[1])
             );
-            exit.take(cx, from_outside, &entry);
+            exit.replace(cx, from_outside, &entry);
             let none = cx.is(exit.face, NO_FACE);
             meets = math!(cx, (meets && !none) && exit.distance < limit);
             return (meets, exit);
@@ -350,7 +351,7 @@ impl Search<'_> {
                     face: cx.index(face.label),
                     front: self.front(cx, face.label, falls),
                 };
-                nearest.take(cx, hit, &here);
+                nearest.replace(cx, hit, &here);
             }
             cx.leave();
         }
@@ -406,7 +407,7 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         for (number, body) in plan.bodies.iter().enumerate() {
             cx.enter(Part::Body(number));
             let (meets, here) = self.body(cx, ray, body, nearest.distance);
-            nearest.take(cx, meets, &here);
+            nearest.replace(cx, meets, &here);
             cx.leave();
         }
         let none = cx.index(NO_FACE);

@@ -6,8 +6,9 @@ use super::geometry::Geometry;
 use super::lights::{Lamps, LightStage};
 use super::pixel_class::PixelClass;
 use super::places::Places;
+use super::polygon::Frame;
 use super::refraction::Refraction;
-use super::{Arith, bound, geometry};
+use super::{Arith, bound};
 use glam::DVec3;
 use qrt_scene::valid::{Surface, ValidScene};
 use qrt_scene::{DepthSampling, Material};
@@ -126,14 +127,10 @@ impl<const C: usize> Stage<C> {
             if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
                 let asked = (depth, bits, sampling.lights);
                 let radiance = emitters.radiance();
-                let lights = LightStage::new(
-                    (lamps, &places),
-                    &surfaces,
-                    radiance,
-                    &surface_of,
-                    &scatter,
-                    asked,
-                );
+                let numbers = 0..surfaces.len() as u32;
+                let receivers: Vec<_> = numbers.map(|surface| scatter.receiver(surface)).collect();
+                let lights =
+                    LightStage::new((lamps, &places), radiance, &surface_of, &receivers, asked);
                 scatter.sample_lights(lights);
             }
             scatters.push(scatter);
@@ -294,7 +291,7 @@ fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]]) -> [f64; C] {
     })
 }
 
-fn frame_row(frame: &geometry::Frame) -> [f64; 9] {
+fn frame_row(frame: &Frame) -> [f64; 9] {
     let (t, b, c) = (frame.tangent, frame.bitangent, frame.centre);
     [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
 }

@@ -21,7 +21,7 @@ fn deciding() -> [Estimator; 7] {
 fn settings(queries: u64) -> Settings {
     Settings {
         queries,
-        ..Settings::of(&Counting::default()).unwrap()
+        ..Settings::from_counting(&Counting::default()).unwrap()
     }
 }
 

@@ -74,7 +74,7 @@ impl<'a> Device<'a> {
         noise.check()?;
         Ok(Self {
             problem,
-            theta: Angle::of(good, total)?,
+            theta: Angle::from_counts(good, total)?,
             noise,
             stream,
             usage: Usage::default(),

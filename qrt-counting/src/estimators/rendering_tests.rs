@@ -18,7 +18,7 @@ fn settings(phase_bits: u32) -> Settings {
         strata: None,
         error: None,
     };
-    Settings::of(&counting).unwrap()
+    Settings::from_counting(&counting).unwrap()
 }
 
 fn run(name: Estimator, settings: &Settings, problem: Problem, noise: Noise, run: u32) -> Estimate {

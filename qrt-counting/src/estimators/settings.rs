@@ -39,7 +39,7 @@ impl Settings {
     ///
     /// # Errors
     /// A register or repetitions out of range.
-    pub fn of(counting: &Counting) -> Result<Self, EstimatorError> {
+    pub fn from_counting(counting: &Counting) -> Result<Self, EstimatorError> {
         check_register(counting.phase_bits, counting.repetitions)?;
         Ok(Self {
             phase_bits: counting.phase_bits,
@@ -66,7 +66,7 @@ impl Settings {
         let error = counting.error.map(|error| (error / scale).min(ANY));
         Ok(Self {
             error,
-            ..Self::of(counting)?
+            ..Self::from_counting(counting)?
         })
     }
 

@@ -262,7 +262,7 @@ fn wrong_bits_are_those_of_the_counter() {
 
 #[test]
 fn settings_and_noise_out_of_range_are_refused() {
-    let settings = Settings::of(&counting(5, 1)).unwrap();
+    let settings = Settings::from_counting(&counting(5, 1)).unwrap();
     assert_eq!(settings.queries, 31);
     for wrong in [
         Settings {
@@ -301,7 +301,7 @@ fn settings_and_noise_out_of_range_are_refused() {
     let noise: Noise = "readout=0.25, depolarising=1e-4".parse().unwrap();
     assert_eq!(noise.to_string().parse(), Ok(noise));
     assert!(matches!(
-        Settings::of(&counting(0, 1)),
+        Settings::from_counting(&counting(0, 1)),
         Err(EstimatorError::Counting(_))
     ));
 }

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use qrt_scene::Window;
 
 use crate::PhaseDistribution;
-use crate::distribution::Phase;
 use crate::kernel::Register;
+use crate::phase::Phase;
 
 /// Precision in bits. T theta takes 80 bits at T = 2^40; squares cancel twice that near theta = 0.
 const P: usize = 384;
@@ -172,13 +172,13 @@ fn phases_a_hair_off_the_grid_hold() {
             let mut good = (total as f64 * (sine * sine)) as u64;
             // Walk onto the grid point, by the slope of S in T theta.
             for _ in 0..5 {
-                let phase = Phase::of(good, total, &register);
+                let phase = Phase::from_counts(good, total, &register);
                 let error = (phase.cell as f64 - grid as f64) + phase.offset;
                 let slope = std::f64::consts::PI * libm::sin(std::f64::consts::TAU * turns);
                 let change = error * slope * total as f64 / register.size() as f64;
                 good = good.saturating_add_signed(-(change.round() as i64));
             }
-            let phase = Phase::of(good, total, &register);
+            let phase = Phase::from_counts(good, total, &register);
             if phase.offset != 0.0 && phase.offset.abs() < 1e-9 {
                 for window in WINDOWS {
                     Exact::check(good, total, bits, window);
@@ -320,7 +320,7 @@ fn peak_and_tails_of_large_registers_sum_to_one() {
             for window in WINDOWS {
                 let found = PhaseDistribution::new(good, total, bits, window).unwrap();
                 let register = Register::new(bits, window);
-                let phase = Phase::of(good, total, &register);
+                let phase = Phase::from_counts(good, total, &register);
                 let (cell, f) = (phase.cell, phase.offset);
                 // Adds small terms first. The mirrored phase's part is only compared with its
                 // bound.

@@ -1,7 +1,7 @@
 //! Steps that compute on the lanes of a block, for one type of lane.
 
 use super::lane::{Float, Kind, Lane, Row};
-use super::steps::Seen;
+use super::seen::Seen;
 
 /// An operand: a value, or the same number in all lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub(super) struct Wrap<K> {
 
 impl<K: Lane> Wrap<K> {
     /// Keeps the whole number.
-    pub(super) fn none() -> Self {
+    pub(super) fn whole() -> Self {
         Self {
             mask: K::cut(-1),
             half: K::cut(0),
@@ -30,7 +30,7 @@ impl<K: Lane> Wrap<K> {
     /// Keeps `width` bits.
     pub(super) fn new(width: u32, signed: bool) -> Self {
         if width >= K::BITS {
-            return Self::none();
+            return Self::whole();
         }
         Self {
             // A register of no bits holds 0, for example the index of a pixel's only path.
@@ -40,7 +40,7 @@ impl<K: Lane> Wrap<K> {
     }
 
     #[inline(always)]
-    pub(super) fn of(self, value: K) -> K {
+    pub(super) fn apply(self, value: K) -> K {
         value.and(self.mask).xor(self.half).sub(self.half)
     }
 }

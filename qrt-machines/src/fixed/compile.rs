@@ -2,7 +2,7 @@
 
 use super::arith::{Arg, Arith, Wrap};
 use super::lane::{Kind, Lane};
-use super::steps::Step;
+use super::steps::{Step, StepLane};
 use qrt_circuit::{Bit, Operand, Program, RegisterId, Type, Word};
 use std::collections::HashMap;
 
@@ -33,6 +33,9 @@ macro_rules! with_kind {
     };
 }
 
+/// Bounds of a value that is already cut to its register.
+pub(super) const CUT: [i64; 2] = [0, 0];
+
 /// Range of the numbers of `width` bits, unsigned or in two's complement.
 pub(super) fn range(width: u32, signed: bool) -> [i64; 2] {
     let all = |bits: u32| (1_i128 << bits) - 1;
@@ -49,7 +52,7 @@ pub(super) fn kind_of(width: u32, signed: bool) -> Kind {
     if width == 1 && !signed {
         Kind::Truth
     } else {
-        Kind::of(range(width, signed))
+        Kind::for_range(range(width, signed))
     }
 }
 
@@ -112,7 +115,7 @@ impl<'a> Compiler<'a> {
     /// Adds the steps that read `outputs`, and returns their values with their kinds.
     pub(super) fn outputs(&mut self, outputs: &[Word]) -> Vec<Value> {
         let read = outputs.iter().map(|word| {
-            let kind = Kind::of(word.range());
+            let kind = Kind::for_range(word.range());
             (kind, self.word(*word, kind))
         });
         read.collect()
@@ -171,7 +174,7 @@ impl<'a> Compiler<'a> {
             return *read;
         }
         let read = if free {
-            self.cast((from, value), kind, Wrap::none())
+            self.cast((from, value), kind, Wrap::whole())
         } else {
             self.cut((from, value), (width, signed), word, kind)
         };
@@ -180,11 +183,11 @@ impl<'a> Compiler<'a> {
     }
 
     fn cut(&mut self, from: Value, (width, signed): (u32, bool), word: Word, kind: Kind) -> u32 {
-        let wide = from.0.max(Kind::of(word.range())).max(kind);
+        let wide = from.0.max(Kind::for_range(word.range())).max(kind);
         let value = if from.0 == wide {
             from.1
         } else {
-            self.cast(from, wide, Wrap::none())
+            self.cast(from, wide, Wrap::whole())
         };
         let extended = word.offset + word.width == width && word.signed == signed;
         let left = if extended {
@@ -206,7 +209,7 @@ impl<'a> Compiler<'a> {
         if wide == kind {
             return t;
         }
-        self.cast((wide, t), kind, Wrap::none())
+        self.cast((wide, t), kind, Wrap::whole())
     }
 
     /// Returns the word's number mod 2, as a truth.
@@ -225,7 +228,7 @@ impl<'a> Compiler<'a> {
         self.step(|t| {
             with_kind!(kind, K => K::step(Arith::Wrap {
                 a: Arg::Splat(K::cut(value)),
-                wrap: Wrap::none(),
+                wrap: Wrap::whole(),
                 t,
             }))
         })

@@ -4,8 +4,8 @@
 //! each instruction set.
 
 use super::arith::{Arg, Arith, Source, Wrap};
+use super::block::Block;
 use super::lane::{Float, Lane, Row, Slot, Slots};
-use super::steps::Block;
 use super::table::look_up;
 
 #[inline(always)]
@@ -51,7 +51,7 @@ fn select<K: Lane>(
     // gather.
     let choose = |when: u8, a: K, b: K| {
         let chosen = K::cut(0).sub(K::cut(i64::from(when)));
-        wrap.of(b.xor(a.xor(b).and(chosen)))
+        wrap.apply(b.xor(a.xor(b).and(chosen)))
     };
     let lanes = t.0.iter_mut().zip(&when.0);
     match (a, b) {
@@ -128,7 +128,7 @@ fn parity<K: Lane>(
             let shift = parameter.map_or(0, |p| parameters[p as usize]);
             let start = K::cut(shift.cast_signed()).xor(high);
             let lanes = t.0[range.clone()].iter_mut().zip(&pattern.0[range]);
-            lanes.for_each(|(t, low)| *t = wrap.of(low.xor(start)));
+            lanes.for_each(|(t, low)| *t = wrap.apply(low.xor(start)));
         });
         return;
     }
@@ -140,7 +140,7 @@ fn parity<K: Lane>(
                 Source::Row(row) => slots.longs[row as usize].0[lane].cast_unsigned(),
             };
             let bits = image(columns, source) ^ shift;
-            t.0[lane] = wrap.of(K::cut(bits.cast_signed()));
+            t.0[lane] = wrap.apply(K::cut(bits.cast_signed()));
         }
     });
 }
@@ -149,7 +149,7 @@ impl<K: Lane> Arith<K> {
     /// Computes into `spare`, or into `truth` if the target is a truth, and swaps the result into
     /// its slot.
     #[inline(always)]
-    pub(super) fn run(
+    pub(super) fn compute(
         &self,
         slots: &mut Slots,
         spare: &mut Slot<K>,
@@ -158,15 +158,15 @@ impl<K: Lane> Arith<K> {
     ) {
         let t = match *self {
             Self::Add { a, b, wrap, t } => {
-                binary(slots, spare, (a, b), |a, b| wrap.of(a.add(b)));
+                binary(slots, spare, (a, b), |a, b| wrap.apply(a.add(b)));
                 t
             }
             Self::Sub { a, b, wrap, t } => {
-                binary(slots, spare, (a, b), |a, b| wrap.of(a.sub(b)));
+                binary(slots, spare, (a, b), |a, b| wrap.apply(a.sub(b)));
                 t
             }
             Self::Xor { a, b, wrap, t } => {
-                binary(slots, spare, (a, b), |a, b| wrap.of(a.xor(b)));
+                binary(slots, spare, (a, b), |a, b| wrap.apply(a.xor(b)));
                 t
             }
             Self::Mul {
@@ -176,7 +176,9 @@ impl<K: Lane> Arith<K> {
                 wrap,
                 t,
             } => {
-                binary(slots, spare, (a, b), |a, b| wrap.of(a.mul(b).right(drop)));
+                binary(slots, spare, (a, b), |a, b| {
+                    wrap.apply(a.mul(b).right(drop))
+                });
                 t
             }
             Self::Less { a, b, t } => {
@@ -206,7 +208,7 @@ impl<K: Lane> Arith<K> {
                 let lanes = spare.0.iter_mut().zip(&K::rows(slots)[a as usize].0);
                 for ((t, a), when) in lanes.zip(when) {
                     let minus = K::cut(0).sub(*a);
-                    *t = wrap.of(if *when == plus { *a } else { minus });
+                    *t = wrap.apply(if *when == plus { *a } else { minus });
                 }
                 t
             }
@@ -227,7 +229,9 @@ impl<K: Lane> Arith<K> {
                 t
             }
             Self::Wrap { a, wrap, t } => {
-                binary(slots, spare, (a, Arg::Splat(K::cut(0))), |a, _| wrap.of(a));
+                binary(slots, spare, (a, Arg::Splat(K::cut(0))), |a, _| {
+                    wrap.apply(a)
+                });
                 t
             }
             Self::Bit { a, index, t } => {
@@ -293,13 +297,13 @@ impl<K: Lane> Arith<K> {
             Self::Load { parameter, wrap, t } => {
                 block.each_span(|range, parameters| {
                     let value = parameters[parameter as usize].cast_signed();
-                    spare.0[range].fill(wrap.of(K::cut(value)));
+                    spare.0[range].fill(wrap.apply(K::cut(value)));
                 });
                 t
             }
             Self::Input { input, wrap, t } => {
                 for (lane, t) in spare.0.iter_mut().enumerate() {
-                    *t = wrap.of(K::cut(block.input(input, lane).cast_signed()));
+                    *t = wrap.apply(K::cut(block.input(input, lane).cast_signed()));
                 }
                 t
             }

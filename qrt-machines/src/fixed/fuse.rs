@@ -1,8 +1,8 @@
 //! Fuses two steps into one: a sum, and the read of its only needed bit, as in comparisons.
 
 use super::arith::Arith;
-use super::lane::{Kind, Lane};
-use super::steps::Step;
+use super::lane::Kind;
+use super::steps::{Step, StepLane};
 
 /// Replaces each sum of which only one bit is read, and only once, by a step that computes that
 /// bit.
@@ -56,7 +56,7 @@ fn bit_of(step: &Step) -> Option<u32> {
     }
 }
 
-fn both<K: Lane>(sum: &Arith<K>, bit: &Arith<K>) -> Option<Step> {
+fn both<K: StepLane>(sum: &Arith<K>, bit: &Arith<K>) -> Option<Step> {
     let Arith::Bit { index, t, .. } = *bit else {
         return None;
     };

@@ -1,10 +1,9 @@
 //! Steps of operations in place, and of operations that are like them.
 
 use super::arith::{Arg, Arith, Wrap};
-use super::compile::{Compiler, kind_of, with_kind};
-use super::lane::{Kind, Lane};
-use super::ops::CUT;
-use super::steps::Step;
+use super::compile::{CUT, Compiler, kind_of, with_kind};
+use super::lane::Kind;
+use super::steps::{Step, StepLane};
 use qrt_circuit::{Bit, Op, Operand, RegisterId, When, Word};
 
 /// The operation of a step with two operands.
@@ -96,7 +95,13 @@ impl Compiler<'_> {
     }
 
     /// Adds a step with two operands, whose lanes are of the target's kind.
-    pub(super) fn pair<K: Lane>(&mut self, pair: Pair, target: RegisterId, a: Arg<K>, b: Arg<K>) {
+    pub(super) fn pair<K: StepLane>(
+        &mut self,
+        pair: Pair,
+        target: RegisterId,
+        a: Arg<K>,
+        b: Arg<K>,
+    ) {
         let (width, signed) = self.shape(target);
         let wrap = Wrap::new(width, signed);
         let t = self.step(|t| {
@@ -109,7 +114,7 @@ impl Compiler<'_> {
         self.set(target, (kind_of(width, signed), t), CUT);
     }
 
-    pub(super) fn selected<K: Lane>(
+    pub(super) fn selected<K: StepLane>(
         &mut self,
         bit: Bit,
         a: Arg<K>,
@@ -132,7 +137,7 @@ impl Compiler<'_> {
     }
 
     /// `if bit { -a } else { a }`, cut to the target.
-    pub(super) fn negated<K: Lane>(
+    pub(super) fn negated<K: StepLane>(
         &mut self,
         a: Operand,
         bit: Bit,

@@ -1,8 +1,5 @@
 //! Lanes of integers, which hold the values of a block of states.
 
-use super::arith::Arith;
-use super::steps::Step;
-
 /// Number of states of a block.
 ///
 /// Longer blocks spread the cost of choosing a step over more lanes; shorter ones keep a program's
@@ -34,7 +31,7 @@ impl Kind {
     }
 
     /// The narrowest kind of number that holds all of `low ..= high`.
-    pub(super) fn of([low, high]: [i64; 2]) -> Self {
+    pub(super) fn for_range([low, high]: [i64; 2]) -> Self {
         let holds = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
         if holds(16) {
             Self::Short
@@ -70,6 +67,15 @@ pub(super) struct Slots {
     pub(super) longs: Vec<Slot<i64>>,
 }
 
+/// Spare rows, in which steps compute results before these take their slots.
+#[derive(Clone, Debug)]
+pub(super) struct Spares {
+    pub(super) truth: [Slot<u8>; 2],
+    pub(super) short: Slot<i16>,
+    pub(super) int: Slot<i32>,
+    pub(super) long: Slot<i64>,
+}
+
 /// A type of lane.
 pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug {
     const BITS: u32;
@@ -92,7 +98,6 @@ pub(super) trait Lane: Copy + Default + PartialEq + PartialOrd + std::fmt::Debug
     fn root(self, how: Float) -> Self;
     fn rows(slots: &Slots) -> &[Slot<Self>];
     fn rows_mut(slots: &mut Slots) -> &mut Vec<Slot<Self>>;
-    fn step(arith: Arith<Self>) -> Step;
 }
 
 /// The numbers with which divisions and square roots are computed.
@@ -114,7 +119,7 @@ pub(super) enum Float {
 
 impl Float {
     /// Returns the numbers for operands of `bits` bits.
-    pub(super) fn of(bits: u32) -> Self {
+    pub(super) fn for_bits(bits: u32) -> Self {
         match bits {
             0..=23 => Self::Single,
             24..=52 => Self::Double,
@@ -150,7 +155,7 @@ fn double(value: i64) -> f64 {
 }
 
 macro_rules! lane {
-    ($type:ident, $unsigned:ident, $bits:literal, $rows:ident, $step:ident) => {
+    ($type:ident, $unsigned:ident, $bits:literal, $rows:ident) => {
         impl Lane for $type {
             const BITS: u32 = $bits;
             #[inline(always)]
@@ -213,14 +218,11 @@ macro_rules! lane {
             fn rows_mut(slots: &mut Slots) -> &mut Vec<Slot<Self>> {
                 &mut slots.$rows
             }
-            fn step(arith: Arith<Self>) -> Step {
-                Step::$step(arith)
-            }
         }
     };
 }
 
-lane!(u8, u8, 8, truths, Truth);
-lane!(i16, u16, 16, shorts, Short);
-lane!(i32, u32, 32, ints, Int);
-lane!(i64, u64, 64, longs, Long);
+lane!(u8, u8, 8, truths);
+lane!(i16, u16, 16, shorts);
+lane!(i32, u32, 32, ints);
+lane!(i64, u64, 64, longs);

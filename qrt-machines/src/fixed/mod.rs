@@ -6,6 +6,7 @@
 //! use.
 
 mod arith;
+mod block;
 mod compile;
 mod compute;
 mod fuse;
@@ -15,6 +16,7 @@ mod ops;
 mod product;
 mod quotient;
 mod reference;
+mod seen;
 mod slots;
 mod steps;
 mod table;
@@ -25,13 +27,14 @@ pub use reference::{Extremes, contents};
 
 use super::instructions::InstructionSet;
 use super::span::Span;
+use block::Block;
 use compile::Compiler;
-use lane::{Kind, LANES, Slots};
+use lane::{Kind, LANES, Slots, Spares};
 use pulp::{Simd, WithSimd};
 use qrt_circuit::{Program, Word};
 use rayon::prelude::*;
 use slots::Counts;
-use steps::{Block, Spares, Step};
+use steps::Step;
 
 /// Number of the lowest bits, of a register of `width` bits, that a block's consecutive path
 /// indices run through.

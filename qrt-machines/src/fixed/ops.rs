@@ -1,19 +1,16 @@
 //! Compiles each operation to steps.
 
 use super::arith::{Arith, Source, Wrap};
-use super::compile::{Compiler, Value, kind_of, range, with_kind};
+use super::compile::{CUT, Compiler, Value, kind_of, range, with_kind};
 use super::compute::image;
 use super::in_place::Pair;
 use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
 use super::product::{Factor, How, Product};
 use super::quotient::Quotient;
-use super::steps::Step;
+use super::steps::{Step, StepLane};
 use super::table;
 use qrt_circuit::{Bit, Op, Operand, RegisterId, Word};
-
-/// Bounds of a value that is already cut to its register.
-pub(super) const CUT: [i64; 2] = [0, 0];
 
 /// Range of the numbers that an operand can be.
 fn bounds(operand: Operand) -> [i64; 2] {
@@ -110,7 +107,7 @@ impl Compiler<'_> {
                 });
             }
             Op::Less { a, b, target } => {
-                let kind = Kind::of(union(bounds(*a), bounds(*b)));
+                let kind = Kind::for_range(union(bounds(*a), bounds(*b)));
                 let t = with_kind!(kind, K => {
                     let a = self.operand::<K>(*a, kind);
                     let b = self.operand::<K>(*b, kind);
@@ -149,8 +146,8 @@ impl Compiler<'_> {
                 ..
             } => self.division(*a, *b, *quotient, *fits),
             Op::SquareRoot { a, target, .. } => {
-                let kind = Kind::of(a.range());
-                let float = Float::of(a.bits());
+                let kind = Kind::for_range(a.range());
+                let float = Float::for_bits(a.bits());
                 let a_value = self.word(*a, kind);
                 let t = self
                     .step(|t| with_kind!(kind, K => K::step(Arith::Root { a: a_value, float, t })));
@@ -175,7 +172,7 @@ impl Compiler<'_> {
                     }
                     let t = with_kind!(kind, K => {
                         let wrap = Wrap::<K>::new(width, signed);
-                        let entries = column.iter().map(|entry| wrap.of(K::cut(*entry)));
+                        let entries = column.iter().map(|entry| wrap.apply(K::cut(*entry)));
                         let table = table::numbers(entries);
                         self.step(|t| K::step(Arith::Lookup { address, table, t }))
                     });
@@ -197,7 +194,7 @@ impl Compiler<'_> {
         let corners = corners.as_flattened();
         let low = corners.iter().copied().fold(i128::MAX, i128::min);
         let high = corners.iter().copied().fold(i128::MIN, i128::max);
-        let narrow = Kind::of(a.range()).max(Kind::of(bounds(b)));
+        let narrow = Kind::for_range(a.range()).max(Kind::for_range(bounds(b)));
         // If the product does not fit, its lowest bits are enough if the target keeps no others.
         let fits = |bits: u32| low >= -1 << (bits - 1) && high < 1 << (bits - 1);
         let does = |kind: &Kind| fits(kind.bits()) || drop + width <= kind.bits();
@@ -211,7 +208,7 @@ impl Compiler<'_> {
                 let t = with_kind!(kind, K => {
                     let a = self.operand::<K>(Operand::Word(a), kind);
                     let b = self.operand::<K>(b, kind);
-                    let wrap = if kind == own { Wrap::new(width, signed) } else { Wrap::none() };
+                    let wrap = if kind == own { Wrap::new(width, signed) } else { Wrap::whole() };
                     let drop = drop.min(kind.bits() - 1);
                     self.step(|t| K::step(Arith::Mul { a, b, drop, wrap, t }))
                 });
@@ -244,7 +241,7 @@ impl Compiler<'_> {
         let wrap = if to == own {
             Wrap::new(width, signed)
         } else {
-            Wrap::none()
+            Wrap::whole()
         };
         let t = self.step(|t| {
             Step::Product(Product {
@@ -264,16 +261,18 @@ impl Compiler<'_> {
     fn division(&mut self, a: Word, b: Word, quotient: RegisterId, fits: RegisterId) {
         let (width, _) = self.shape(quotient);
         let numbers = union(union(a.range(), b.range()), range(width, false));
-        let kind = Kind::of(numbers);
-        let float = Float::of(a.bits().max(b.bits()));
+        let kind = Kind::for_range(numbers);
+        let float = Float::for_bits(a.bits().max(b.bits()));
         let plain = [a, b].map(|word| Word { shift: 0, ..word });
         if float == Float::Double
             && width <= 52
-            && plain.iter().all(|word| Kind::of(word.range()) <= Kind::Int)
+            && plain
+                .iter()
+                .all(|word| Kind::for_range(word.range()) <= Kind::Int)
         {
             let up = [a.shift, b.shift];
             let [a, b] = plain.map(|word| self.word(word, Kind::Int));
-            let kind = Kind::of(range(width, false)).max(Kind::Int);
+            let kind = Kind::for_range(range(width, false)).max(Kind::Int);
             let (value, holds) = (self.value(), self.value());
             self.steps.push(Step::Quotient(Quotient {
                 a,

@@ -1,8 +1,8 @@
 //! Products that need more bits than their factors' lanes have.
 
 use super::arith::Wrap;
-use super::lane::{Kind, Lane, Row, Slots};
-use super::steps::{Seen, Spares};
+use super::lane::{Kind, Lane, Row, Slots, Spares};
+use super::seen::Seen;
 use pulp::bytemuck;
 
 /// A second factor.
@@ -142,11 +142,11 @@ fn each<A: Lane + Into<i64>, T: Lane>(
     match b {
         Factor::Row(b) => {
             let lanes = lanes.zip(&all[b as usize].0);
-            lanes.for_each(|((t, a), b)| *t = wrap.of(T::cut(f(*a, *b))));
+            lanes.for_each(|((t, a), b)| *t = wrap.apply(T::cut(f(*a, *b))));
         }
         Factor::Splat(b) => {
             let b = A::cut(b);
-            lanes.for_each(|(t, a)| *t = wrap.of(T::cut(f(*a, b))));
+            lanes.for_each(|(t, a)| *t = wrap.apply(T::cut(f(*a, b))));
         }
     }
 }
@@ -154,7 +154,7 @@ fn each<A: Lane + Into<i64>, T: Lane>(
 impl Product {
     /// Computes into a spare row and swaps it into its slot.
     #[inline(always)]
-    pub(super) fn run(&self, slots: &mut Slots, spares: &mut Spares) {
+    pub(super) fn compute(&self, slots: &mut Slots, spares: &mut Spares) {
         let Self {
             how,
             a,

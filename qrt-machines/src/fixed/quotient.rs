@@ -1,7 +1,7 @@
 //! Quotients of shifted Ints.
 
-use super::lane::{Kind, Lane, Row, Slots, floor_double};
-use super::steps::{Seen, Spares};
+use super::lane::{Kind, Lane, Row, Slots, Spares, floor_double};
+use super::seen::Seen;
 
 /// `floor(a 2^up / (b 2^up))`, with a shift of its own for each, and whether it fits, of numbers
 /// that fit into 52 bits with the zeros below them. The step computes it entirely in `f64`, where
@@ -46,7 +46,7 @@ impl Quotient {
 
     /// Computes into spare rows and swaps them into their slots.
     #[inline(always)]
-    pub(super) fn run(&self, slots: &mut Slots, spares: &mut Spares) {
+    pub(super) fn compute(&self, slots: &mut Slots, spares: &mut Spares) {
         let [fits, _] = &mut spares.truth;
         let t = self.to.1 as usize;
         if self.to.0 == Kind::Int {

@@ -1,11 +1,11 @@
 //! Steps, to which a program is compiled before it runs.
 
 use super::arith::{Arith, Wrap};
-use super::lane::{Kind, LANES, Lane, Row, Slot, Slots};
+use super::block::Block;
+use super::lane::{Kind, Lane, Row, Slots, Spares};
 use super::product::Product;
 use super::quotient::Quotient;
-use crate::Span;
-use std::ops::Range;
+use super::seen::Seen;
 
 /// One step, with its operands' and targets' places among the slots of their kinds.
 #[derive(Clone, Debug)]
@@ -49,70 +49,34 @@ pub(super) enum Step {
     },
 }
 
-/// A value that a step reads or computes: its kind, and its place.
-pub(super) struct Seen<'a> {
-    pub(super) kind: Kind,
-    pub(super) place: &'a mut u32,
-    pub(super) computed: bool,
+/// A type of lane on which steps compute.
+pub(super) trait StepLane: Lane {
+    /// Returns the step that computes `arith` on lanes of this type.
+    fn step(arith: Arith<Self>) -> Step;
 }
 
-impl<'a> Seen<'a> {
-    pub(super) fn read(kind: Kind, place: &'a mut u32) -> Self {
-        Self {
-            kind,
-            place,
-            computed: false,
-        }
-    }
-
-    pub(super) fn computed(kind: Kind, place: &'a mut u32) -> Self {
-        Self {
-            kind,
-            place,
-            computed: true,
-        }
+impl StepLane for u8 {
+    fn step(arith: Arith<Self>) -> Step {
+        Step::Truth(arith)
     }
 }
 
-/// The input of a block of states.
-pub(super) struct Block<'a> {
-    pub(super) inputs: &'a [&'a [u64]],
-    pub(super) spans: &'a [Span<'a>],
-    /// By input: `first`, if lane l holds `first ^ (l mod 2^k)`, with the k of
-    /// [`super::pattern_bits`].
-    pub(super) runs: Vec<Option<u64>>,
-}
-
-impl Block<'_> {
-    /// Returns the content of an input register. The lanes after the last given one hold the same
-    /// as that.
-    #[inline(always)]
-    pub(super) fn input(&self, input: u32, lane: usize) -> u64 {
-        let lanes = self.inputs[input as usize];
-        lanes.get(lane).or(lanes.last()).copied().unwrap_or(0)
-    }
-
-    /// Calls `each` with the lanes and the parameters of every span; the last one takes all lanes
-    /// that remain.
-    #[inline(always)]
-    pub(super) fn each_span(&self, mut each: impl FnMut(Range<usize>, &[u64])) {
-        let mut first = 0;
-        for (place, span) in self.spans.iter().enumerate() {
-            let last = place + 1 == self.spans.len();
-            let end = if last { LANES } else { first + span.lanes };
-            each(first..end.min(LANES), span.parameters);
-            first = end.min(LANES);
-        }
+impl StepLane for i16 {
+    fn step(arith: Arith<Self>) -> Step {
+        Step::Short(arith)
     }
 }
 
-/// Spare rows, in which steps compute results before these take their slots.
-#[derive(Clone, Debug)]
-pub(super) struct Spares {
-    pub(super) truth: [Slot<u8>; 2],
-    pub(super) short: Slot<i16>,
-    pub(super) int: Slot<i32>,
-    pub(super) long: Slot<i64>,
+impl StepLane for i32 {
+    fn step(arith: Arith<Self>) -> Step {
+        Step::Int(arith)
+    }
+}
+
+impl StepLane for i64 {
+    fn step(arith: Arith<Self>) -> Step {
+        Step::Long(arith)
+    }
 }
 
 /// Evaluates `$body` with `$row` a spare of kind `$kind` and its lanes' type `$K`, then swaps it
@@ -147,7 +111,7 @@ fn cast<A: Lane, T: Lane>(
         half: T::cut(wrap.half),
     };
     for (t, a) in t.0.iter_mut().zip(&A::rows(slots)[a as usize].0) {
-        *t = wrap.of(f(*a));
+        *t = wrap.apply(f(*a));
     }
 }
 
@@ -157,10 +121,10 @@ impl Step {
     pub(super) fn run(&self, slots: &mut Slots, spares: &mut Spares, block: &Block<'_>) {
         let [truth, other] = &mut spares.truth;
         match *self {
-            Self::Truth(ref arith) => arith.run(slots, other, truth, block),
-            Self::Short(ref arith) => arith.run(slots, &mut spares.short, truth, block),
-            Self::Int(ref arith) => arith.run(slots, &mut spares.int, truth, block),
-            Self::Long(ref arith) => arith.run(slots, &mut spares.long, truth, block),
+            Self::Truth(ref arith) => arith.compute(slots, other, truth, block),
+            Self::Short(ref arith) => arith.compute(slots, &mut spares.short, truth, block),
+            Self::Int(ref arith) => arith.compute(slots, &mut spares.int, truth, block),
+            Self::Long(ref arith) => arith.compute(slots, &mut spares.long, truth, block),
             Self::Cast {
                 from: (from, a),
                 to: (to, t),
@@ -171,8 +135,8 @@ impl Step {
                 Kind::Int => cast::<i32, K>(slots, a, row, wrap, |a| a as K),
                 Kind::Long => cast::<i64, K>(slots, a, row, wrap, |a| a as K),
             }),
-            Self::Product(ref product) => product.run(slots, spares),
-            Self::Quotient(ref quotient) => quotient.run(slots, spares),
+            Self::Product(ref product) => product.compute(slots, spares),
+            Self::Quotient(ref quotient) => quotient.compute(slots, spares),
             Self::And { a, b, t } => {
                 let (flip_a, flip_b) = (u8::from(a.1), u8::from(b.1));
                 let all = &slots.truths;

@@ -35,10 +35,10 @@ pub(super) fn truths(entries: &[i64]) -> Option<Box<[u32]>> {
 #[inline(always)]
 pub(super) fn look_up<K: Lane>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
     match table.len() {
-        2 => few::<K, 2>(t, address, table),
-        4 => few::<K, 4>(t, address, table),
-        8 => few::<K, 8>(t, address, table),
-        FEW => few::<K, FEW>(t, address, table),
+        2 => look_up_few::<K, 2>(t, address, table),
+        4 => look_up_few::<K, 4>(t, address, table),
+        8 => look_up_few::<K, 8>(t, address, table),
+        FEW => look_up_few::<K, FEW>(t, address, table),
         _ => {
             for (t, address) in t.0.iter_mut().zip(&address.0) {
                 *t = table.get(*address as usize).copied().unwrap_or_default();
@@ -48,7 +48,7 @@ pub(super) fn look_up<K: Lane>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) 
 }
 
 #[inline(always)]
-fn few<K: Lane, const N: usize>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
+fn look_up_few<K: Lane, const N: usize>(t: &mut Row<K>, address: &Row<i32>, table: &[K]) {
     let Some(table) = table.first_chunk::<N>() else {
         return;
     };

@@ -272,7 +272,7 @@ impl Run<'_> {
     #[inline(always)]
     fn scalar(self) {
         let parts = self.words / rows::FEW_WORDS;
-        run::<pulp::Scalar, { rows::FEW_WORDS }>(
+        run_patterns::<pulp::Scalar, { rows::FEW_WORDS }>(
             pulp::Scalar::new(),
             self.code,
             (self.rows, parts),
@@ -287,17 +287,21 @@ impl Run<'_> {
         simd: S,
     ) {
         match rows::LENGTHS.iter().position(|words| *words == self.words) {
-            Some(0) => run::<S, A>(simd, self.code, (self.rows, 1)),
-            Some(1) => run::<S, B>(simd, self.code, (self.rows, 1)),
-            Some(2) => run::<S, C>(simd, self.code, (self.rows, 1)),
-            _ => run::<S, D>(simd, self.code, (self.rows, 1)),
+            Some(0) => run_patterns::<S, A>(simd, self.code, (self.rows, 1)),
+            Some(1) => run_patterns::<S, B>(simd, self.code, (self.rows, 1)),
+            Some(2) => run_patterns::<S, C>(simd, self.code, (self.rows, 1)),
+            _ => run_patterns::<S, D>(simd, self.code, (self.rows, 1)),
         }
     }
 }
 
 /// Runs code on rows of `parts` parts, each of `N` vectors.
 #[inline(always)]
-fn run<S: Simd, const N: usize>(simd: S, mut code: &[u32], (rows, parts): (&mut [u64], usize)) {
+fn run_patterns<S: Simd, const N: usize>(
+    simd: S,
+    mut code: &[u32],
+    (rows, parts): (&mut [u64], usize),
+) {
     let vectors: &mut [S::u64s] = bytemuck::cast_slice_mut(rows);
     let (rows, _) = vectors.as_chunks_mut::<N>();
     let rows = Cell::from_mut(rows).as_slice_of_cells();

@@ -95,7 +95,7 @@ struct Coder<'a> {
 /// Writes the trait's implementation.
 pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let (mut coder, sequence) = Coder::new(oracle, names);
-    let told = Repeats::of(sequence, coder.statements.len(), REPEATED);
+    let told = Repeats::find(sequence, coder.statements.len(), REPEATED);
     for part in &told.parts {
         coder.function(out, part);
     }
@@ -193,7 +193,7 @@ impl<'a> Coder<'a> {
         let of = |registers: &[RegisterId], kind: &str| -> String {
             let named = registers
                 .iter()
-                .map(|&own| format!(", {}: {kind}", self.names.of(own)));
+                .map(|&own| format!(", {}: {kind}", self.names.variable(own)));
             named.collect()
         };
         let number = self.effects.len() - self.statements.len();
@@ -222,7 +222,7 @@ impl<'a> Coder<'a> {
         let effect = &self.effects[symbol];
         let named = |all: &[RegisterId]| {
             all.iter()
-                .map(|&own| self.names.of(own).to_owned())
+                .map(|&own| self.names.variable(own).to_owned())
                 .collect()
         };
         let text = match self.statements.get(symbol) {
@@ -261,7 +261,7 @@ impl<'a> Coder<'a> {
     fn tuple(&self, registers: &[RegisterId]) -> String {
         let named = registers
             .iter()
-            .map(|&own| format!("{}, ", self.names.of(own)));
+            .map(|&own| format!("{}, ", self.names.variable(own)));
         named.collect()
     }
 
@@ -270,9 +270,9 @@ impl<'a> Coder<'a> {
             return "id".to_owned();
         }
         if self.lent.contains(&register) {
-            return self.names.of(register).to_owned();
+            return self.names.variable(register).to_owned();
         }
-        format!("&{}", self.names.of(register))
+        format!("&{}", self.names.variable(register))
     }
 
     fn word(&self, word: Word) -> String {
@@ -304,7 +304,7 @@ impl<'a> Coder<'a> {
 
     fn targets(&self, op: &Op) -> Vec<&str> {
         let targets = op.targets().into_iter();
-        targets.map(|target| self.names.of(target)).collect()
+        targets.map(|target| self.names.variable(target)).collect()
     }
 
     /// Returns the call that computes an out-of-place operation: a method of the operation's name

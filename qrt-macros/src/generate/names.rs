@@ -27,7 +27,7 @@ impl Names {
     }
 
     /// Returns the variable that holds a register.
-    pub(super) fn of(&self, register: RegisterId) -> &str {
+    pub(super) fn variable(&self, register: RegisterId) -> &str {
         &self.0[register.index()]
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Repeats {
 impl Repeats {
     /// Finds the repeats in a sequence of symbols below `symbols`. Each part stands for at least
     /// `least` of them.
-    pub(super) fn of(sequence: Vec<usize>, symbols: usize, least: usize) -> Self {
+    pub(super) fn find(sequence: Vec<usize>, symbols: usize, least: usize) -> Self {
         let mut whole = sequence;
         let mut pairs: Vec<[usize; 2]> = Vec::new();
         loop {
@@ -165,7 +165,7 @@ mod tests {
             sequence.extend(once);
             sequence.push(22 + 3 * level);
         }
-        let repeats = Repeats::of(sequence.clone(), 44, 16);
+        let repeats = Repeats::find(sequence.clone(), 44, 16);
         assert_eq!(unfolded(&repeats, 44, 16), sequence);
         assert_eq!(repeats.parts.len(), 8);
         let told = repeats.parts.iter().chain([&repeats.whole]);
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn what_is_not_repeated_stays_as_it_is() {
         for sequence in [vec![], vec![0], (0..50).collect(), vec![1; 7]] {
-            let repeats = Repeats::of(sequence.clone(), 50, 16);
+            let repeats = Repeats::find(sequence.clone(), 50, 16);
             assert_eq!((repeats.whole, repeats.parts.len()), (sequence, 0));
         }
     }
@@ -187,7 +187,7 @@ mod tests {
             sequence in proptest::collection::vec(0_usize..6, 0..300),
             least in 2_usize..20,
         ) {
-            let repeats = Repeats::of(sequence.clone(), 6, least);
+            let repeats = Repeats::find(sequence.clone(), 6, least);
             prop_assert_eq!(unfolded(&repeats, 6, least), sequence);
         }
     }

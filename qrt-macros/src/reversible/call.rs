@@ -1,8 +1,9 @@
 //! Calls of reversible functions, and swaps.
 
 use super::ir::{Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, begin, text, type_text};
+use super::scope::Scope;
 use super::signature;
+use super::source::{begin, text, type_text};
 use proc_macro2::TokenStream;
 use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};

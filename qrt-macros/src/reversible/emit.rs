@@ -7,7 +7,7 @@ use super::ir::{
     Array, Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K,
     Term, Update, inverse,
 };
-use super::methods::as_written;
+use super::source::as_written;
 use super::value::{Temporaries, own};
 use arguments::{from_array, handed};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};

@@ -1,7 +1,7 @@
 //! The intermediate representation of a routine: names are resolved, widths are known.
 
 use super::dim::{self, Dim, Linear, Loop};
-use super::scope::{text, type_text};
+use super::source::{text, type_text};
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use std::fmt;

@@ -5,7 +5,7 @@
 //! at the `impl`. Every function of the `impl` is read with `self` and `Self` written out.
 
 use super::problem::Problems;
-use super::scope::text;
+use super::source::{SELF, text};
 use super::{Around, emit, signature, understood};
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use qrt_scene::syntax::codes;
@@ -13,17 +13,6 @@ use quote::{ToTokens, quote};
 use syn::{
     FnArg, ImplItem, ItemFn, ItemImpl, ItemTrait, ReceiverKind, TraitItem, Type, Visibility,
 };
-
-/// The name of `self` in the generated code, where it is a parameter like others.
-const SELF: &str = "__self";
-
-/// Returns a text in which `self` has the author's name again.
-pub(super) fn as_written(text: String) -> String {
-    if text.contains(SELF) {
-        return text.replace(SELF, "self");
-    }
-    text
-}
 
 /// Returns all Rust that an `impl` expands to.
 pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStream {

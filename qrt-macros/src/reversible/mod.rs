@@ -17,6 +17,7 @@ mod outside;
 mod problem;
 mod scope;
 mod signature;
+mod source;
 mod statement;
 pub(crate) mod term;
 #[cfg(test)]

@@ -15,7 +15,8 @@
 use super::constant::{Constant, Inexact, bits};
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Number, NumberKind, Place, Size};
-use super::scope::{Scope, text};
+use super::scope::Scope;
+use super::source::text;
 use proc_macro2::TokenStream;
 use qrt_scene::syntax::codes;
 use quote::quote;

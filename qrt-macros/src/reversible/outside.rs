@@ -3,8 +3,7 @@
 
 use super::dim::Linear;
 use super::ir::Demand;
-use super::methods::as_written;
-use super::scope::{begin, text};
+use super::source::{as_written, begin, text};
 use quote::quote;
 use syn::{Ident, Path};
 

@@ -1,7 +1,7 @@
 //! Problems of a routine: a code, a place, and the right thing to write. All problems are reported
 //! at once.
 
-use super::methods::as_written;
+use super::source::as_written;
 use proc_macro2::{Ident, TokenStream};
 use qrt_scene::syntax::codes;
 use quote::ToTokens;

@@ -2,13 +2,11 @@
 
 use super::dim::{self, Linear, Loop};
 use super::ir::{Demand, Place, Register};
-use super::methods::as_written;
 use super::outside;
 use super::problem::Problems;
-use super::statement::bare;
+use super::source::bare;
 use proc_macro2::{Span, TokenStream};
 use qrt_scene::syntax::{codes, nearest};
-use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};
 
@@ -305,12 +303,6 @@ impl Scope {
     }
 }
 
-/// Returns the span where source text begins.
-pub(super) fn begin(source: &TokenStream) -> Span {
-    let first = source.clone().into_iter().next();
-    first.map_or_else(Span::call_site, |token| token.span())
-}
-
 /// Returns a whole number, as it is written.
 pub(super) fn integer(expression: &Expr) -> Option<i128> {
     match expression {
@@ -329,50 +321,4 @@ pub(super) fn integer(expression: &Expr) -> Option<i128> {
         },
         _ => None,
     }
-}
-
-/// Returns source text, with the usual spaces.
-pub(super) fn text(source: impl ToTokens) -> String {
-    let mut text = as_written(quote!(#source).to_string());
-    for (from, to) in [
-        (" [", "["),
-        ("[ ", "["),
-        (" ]", "]"),
-        (" (", "("),
-        ("( ", "("),
-        (" )", ")"),
-        (" ..", ".."),
-        (".. ", ".."),
-        ("! ", "!"),
-        (" ,", ","),
-        (" ;", ";"),
-        (" :: ", "::"),
-        ("(& ", "(&"),
-        (", & ", ", &"),
-        ("- (", "-("),
-        ("* - ", "* -"),
-        ("(- ", "(-"),
-        ("*(", "* ("),
-        ("+(", "+ ("),
-        ("-(", "- ("),
-    ] {
-        text = text.replace(from, to);
-    }
-    for sign in ["-", "&"] {
-        if let Some(rest) = text
-            .strip_prefix(sign)
-            .and_then(|rest| rest.strip_prefix(' '))
-        {
-            return format!("{sign}{rest}");
-        }
-    }
-    text
-}
-
-/// Returns a type, as it is usually written.
-pub(super) fn type_text(ty: &syn::Type) -> String {
-    text(ty)
-        .replace(" <", "<")
-        .replace("< ", "<")
-        .replace(" >", ">")
 }

@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Array, Demand, Format, Kind, Register, Signature};
 use super::problem::Problems;
-use super::scope::{text, type_text};
+use super::source::{text, type_text};
 use super::{Around, outside};
 use proc_macro2::{TokenStream, TokenTree};
 use qrt_scene::syntax::codes;

@@ -2,8 +2,9 @@
 
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
-use super::scope::{Scope, begin, text};
+use super::scope::Scope;
 use super::signature;
+use super::source::{bare, begin, text};
 use proc_macro2::TokenStream;
 use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};
@@ -454,19 +455,6 @@ impl Scope {
             syn::RangeLimits::HalfOpen(_) => [start, end],
             syn::RangeLimits::Closed(_) => [start, end.plus(&1.into())],
         })
-    }
-}
-
-/// Returns the text of an expression without the `*` that other Rust would need: a register has its
-/// plain name.
-pub(super) fn bare(expression: &Expr) -> String {
-    match expression {
-        Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Deref(_)) => bare(&unary.expr),
-        Expr::Paren(inner) => match bare(&inner.expr) {
-            inside if syn::parse_str::<Ident>(&inside).is_ok() => inside,
-            _ => text(expression),
-        },
-        _ => text(expression),
     }
 }
 

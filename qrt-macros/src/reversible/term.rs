@@ -49,7 +49,7 @@ fn channels(function: TokenStream, problems: &mut Problems) -> Option<Channels> 
     )?;
     let outputs = signature::outputs(&routine.signature, problems)?;
     let mut meaning = Meaning::new(&routine.signature, problems)?;
-    meaning.run(&routine.body);
+    meaning.statements(&routine.body);
     meaning.texts(&outputs)
 }
 

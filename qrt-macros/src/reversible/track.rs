@@ -20,7 +20,7 @@ use std::rc::Rc;
 /// Checks a routine's body.
 pub(super) fn check(parameters: &[Rc<Register>], body: &[Statement], problems: &mut Problems) {
     let exact = Exact::new(parameters).and_then(|mut exact| {
-        exact.run(body)?;
+        exact.statements(body)?;
         Ok(exact.problems)
     });
     match exact {

@@ -2,7 +2,7 @@
 
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Number, NumberKind, Register, Size};
-use super::scope::text;
+use super::source::text;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 

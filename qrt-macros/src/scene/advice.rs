@@ -91,13 +91,13 @@ pub(crate) fn record(name: &str) -> String {
 }
 
 /// Returns a problem of the checker in the words of the macro.
-pub(crate) fn words(what: &What) -> Words {
+pub(crate) fn description(what: &What) -> Words {
     let mut words = match what {
         What::Structure(Structure::UnknownWord { word, noun, words }) => {
             let word = spelled(word);
-            What::from(Structure::UnknownWord { word, noun, words }).words()
+            What::from(Structure::UnknownWord { word, noun, words }).description()
         }
-        _ => what.words(),
+        _ => what.description(),
     };
     words.help = help(what).or(words.help).or_else(|| {
         let advice = codes::lookup(words.code)?.advice;

@@ -19,7 +19,11 @@ pub(crate) struct Expression {
 
 impl Expression {
     /// Returns the text of `tokens`. A name of the author's becomes its value.
-    pub(crate) fn of(tokens: &[Token], names: &Names, faults: &mut Faults) -> Option<Self> {
+    pub(crate) fn from_tokens(
+        tokens: &[Token],
+        names: &Names,
+        faults: &mut Faults,
+    ) -> Option<Self> {
         let mut expression = Self::default();
         expression.add(tokens, names, faults).then_some(expression)
     }
@@ -108,7 +112,7 @@ impl Expression {
             ) => names.nearest(name),
             _ => None,
         };
-        let words = super::advice::words(&problem.what);
+        let words = super::advice::description(&problem.what);
         let near = near.map(|near| format!("did you mean `{near}`?"));
         faults.add(words.code, place, words.message).help = near.or(words.help);
     }
@@ -152,7 +156,7 @@ pub(crate) fn number(
     if !names.check(tokens, later, faults) {
         return None;
     }
-    let expression = Expression::of(tokens, names, faults)?;
+    let expression = Expression::from_tokens(tokens, names, faults)?;
     if names.are_faulty(tokens) {
         return None;
     }

@@ -181,7 +181,7 @@ impl Body {
             let names = &mut self.reader.names;
             names.define(variable, Some(value), true, &mut self.reader.faults);
             self.entries(body, true);
-            self.reader.names.keep(known);
+            self.reader.names.truncate(known);
             if self.reader.faults.count() > faults {
                 // The next pass would report the same.
                 break;

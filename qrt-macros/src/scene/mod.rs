@@ -144,7 +144,7 @@ impl Parsed {
             ] if sampling == "sampling" && depths == "depths" => self.rays.get(*index),
             _ => None,
         };
-        let words = advice::words(&problem.what);
+        let words = advice::description(&problem.what);
         let fault = faults.add(words.code, found.span, words.message);
         // The message has stated the expected value already.
         let is_said = [codes::WRONG_TYPE, codes::WRONG_LENGTH, codes::MISSING_KEY];

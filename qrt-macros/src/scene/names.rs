@@ -39,13 +39,13 @@ impl Names {
         nearest(text, self.0.iter().map(|name| name.text.as_str()))
     }
 
-    /// Number of names, for a later [`Names::keep`].
+    /// Number of names, for a later [`Names::truncate`].
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
 
     /// Forgets all names but the first `count`.
-    pub(crate) fn keep(&mut self, count: usize) {
+    pub(crate) fn truncate(&mut self, count: usize) {
         self.0.truncate(count);
     }
 

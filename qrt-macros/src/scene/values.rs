@@ -46,7 +46,7 @@ enum Sort {
 
 impl Sort {
     /// Returns the kind of value that `key` has in a record with the name `record`.
-    fn of(record: &str, key: &str) -> Self {
+    fn of_key(record: &str, key: &str) -> Self {
         match (record, key) {
             ("bsdf", "map") => Self::Map,
             ("bsdf", "jacobian" | "pdf") => Self::Expression,
@@ -100,7 +100,7 @@ impl Reader {
             });
             return faulty(at);
         };
-        match Sort::of(record, key) {
+        match Sort::of_key(record, key) {
             Sort::Plain => self.plain(key, tokens, place),
             Sort::Word => self.word(key, tokens, place),
             Sort::Text => self.text(key, tokens, place),
@@ -226,7 +226,8 @@ impl Reader {
                 .help("write `value: fn my_term`, or an expression here");
             return faulty(place);
         }
-        let Some(expression) = Expression::of(tokens, &self.names, &mut self.faults) else {
+        let Some(expression) = Expression::from_tokens(tokens, &self.names, &mut self.faults)
+        else {
             return faulty(place);
         };
         if self.names.are_faulty(tokens) {

@@ -58,7 +58,7 @@ impl Header {
             path: path.to_path_buf(),
         };
         let all = *bytes;
-        if take(bytes, MAGIC.len() as u64) != Some(MAGIC) {
+        if take_bytes(bytes, MAGIC.len() as u64) != Some(MAGIC) {
             return Err(foreign());
         }
         let version = take_u32(bytes).ok_or_else(damaged)?;
@@ -69,7 +69,7 @@ impl Header {
             });
         }
         let length = take_u32(bytes).ok_or_else(damaged)?;
-        let mut body = take(bytes, length.into()).ok_or_else(damaged)?;
+        let mut body = take_bytes(bytes, length.into()).ok_or_else(damaged)?;
         take_seal(bytes, all).ok_or_else(damaged)?;
         let body = &mut body;
         let mut read = || {
@@ -158,9 +158,9 @@ impl Tile {
 
     /// Decodes a tile from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
-        let mut tile = Self::of(take_rectangle(bytes)?);
+        let mut tile = Self::new(take_rectangle(bytes)?);
         let area = tile.area_within(crop)?;
-        let mut payload = take(bytes, area.checked_mul(PIXEL)?)?;
+        let mut payload = take_bytes(bytes, area.checked_mul(PIXEL)?)?;
         take_seal(bytes, all)?;
         let payload = &mut payload;
         for _ in 0..area {
@@ -227,7 +227,7 @@ impl Part {
     /// Decodes a part from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8], crop: [u32; 4]) -> Option<Self> {
         let pixel = [take_u32(bytes)?, take_u32(bytes)?];
-        Tile::of([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
+        Tile::new([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
         let [number, paths] = [take_u64(bytes)?, take_u64(bytes)?];
         let totals = take_words(bytes)?;
         take_seal(bytes, all)?;
@@ -281,14 +281,14 @@ fn put_words(bytes: &mut Vec<u8>, words: &[u64]) {
     }
 }
 
-fn take<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
+fn take_bytes<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
     let (taken, rest) = bytes.split_at_checked(usize::try_from(count).ok()?)?;
     *bytes = rest;
     Some(taken)
 }
 
 fn take_u32(bytes: &mut &[u8]) -> Option<u32> {
-    Some(u32::from_le_bytes(take(bytes, 4)?.try_into().ok()?))
+    Some(u32::from_le_bytes(take_bytes(bytes, 4)?.try_into().ok()?))
 }
 
 /// Reads x, y, width and height.
@@ -298,16 +298,16 @@ fn take_rectangle(bytes: &mut &[u8]) -> Option<[u32; 4]> {
 }
 
 fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
-    Some(u64::from_le_bytes(take(bytes, 8)?.try_into().ok()?))
+    Some(u64::from_le_bytes(take_bytes(bytes, 8)?.try_into().ok()?))
 }
 
 fn take_words(bytes: &mut &[u8]) -> Option<Vec<u64>> {
     let words = u64::from(take_u32(bytes)?);
-    let words = take(bytes, 8 * words)?.as_chunks::<8>().0.iter();
+    let words = take_bytes(bytes, 8 * words)?.as_chunks::<8>().0.iter();
     Some(words.map(|word| u64::from_le_bytes(*word)).collect())
 }
 
 fn take_text(bytes: &mut &[u8]) -> Option<String> {
     let length = take_u32(bytes)?;
-    String::from_utf8(take(bytes, length.into())?.to_vec()).ok()
+    String::from_utf8(take_bytes(bytes, length.into())?.to_vec()).ok()
 }

@@ -135,7 +135,7 @@ pub(crate) fn open(path: &Path, write: bool) -> io::Result<DiskFile> {
     };
     // Another process may have given the name to another file in between.
     let opened = file.metadata()?;
-    if !opened.is_file() || Identity::of(&opened) != Identity::of(&before) {
+    if !opened.is_file() || Identity::from_metadata(&opened) != Identity::from_metadata(&before) {
         return Err(match fs::symlink_metadata(path) {
             Ok(now) if now.is_file() => io::Error::from(ErrorKind::NotFound),
             Ok(_) => irregular(),
@@ -264,7 +264,8 @@ impl DiskFile {
         match fs::symlink_metadata(&self.path) {
             Ok(found) => {
                 let own = self.file.metadata()?;
-                Ok(found.is_file() && Identity::of(&found) == Identity::of(&own))
+                Ok(found.is_file()
+                    && Identity::from_metadata(&found) == Identity::from_metadata(&own))
             }
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
             Err(error) => Err(error),

@@ -13,13 +13,13 @@ pub(super) struct Identity(Option<[u64; 2]>);
 
 impl Identity {
     #[cfg(unix)]
-    pub(super) fn of(found: &Metadata) -> Self {
+    pub(super) fn from_metadata(found: &Metadata) -> Self {
         use std::os::unix::fs::MetadataExt;
         Self(Some([found.dev(), found.ino()]))
     }
 
     #[cfg(not(unix))]
-    pub(super) fn of(_: &Metadata) -> Self {
+    pub(super) fn from_metadata(_: &Metadata) -> Self {
         Self(None)
     }
 }
@@ -29,7 +29,7 @@ impl Identity {
 /// ```
 /// use qrt_runtime::disk::Place;
 /// use std::path::Path;
-/// let [one, other] = [Place::of("new.png".as_ref())?, Place::of("./new.png".as_ref())?];
+/// let [one, other] = [Place::resolve("new.png".as_ref())?, Place::resolve("./new.png".as_ref())?];
 /// assert!(one.is_same_as(&other));
 /// # Ok::<(), std::io::Error>(())
 /// ```
@@ -54,7 +54,7 @@ impl Place {
     ///
     /// # Errors
     /// If the path names no file, its folder does not exist, or the file system returns an error.
-    pub fn of(path: &Path) -> io::Result<Self> {
+    pub fn resolve(path: &Path) -> io::Result<Self> {
         let mut path = path.to_path_buf();
         if is_open(&path) {
             let kind = Kind::Device;
@@ -103,7 +103,7 @@ impl Place {
         let kind = if found.is_dir() {
             Kind::Folder
         } else {
-            Kind::File(Identity::of(found))
+            Kind::File(Identity::from_metadata(found))
         };
         let path = fs::canonicalize(path)?;
         Ok(Self { path, kind })
@@ -178,7 +178,7 @@ mod tests {
     use std::os::unix::fs::symlink;
 
     fn same(one: &Path, other: &Path) -> bool {
-        let [one, other] = [one, other].map(|path| Place::of(path).unwrap());
+        let [one, other] = [one, other].map(|path| Place::resolve(path).unwrap());
         assert_eq!(one.is_same_as(&other), other.is_same_as(&one));
         one.is_same_as(&other)
     }
@@ -220,13 +220,13 @@ mod tests {
         }
         symlink("loop", path("loop")).unwrap();
         for name in ["loop", "none/new", "below/none/new"] {
-            assert!(Place::of(&path(name)).is_err(), "{name}");
+            assert!(Place::resolve(&path(name)).is_err(), "{name}");
         }
         symlink("none/new", path("lost")).unwrap();
-        let error = Place::of(&path("lost")).unwrap_err().to_string();
+        let error = Place::resolve(&path("lost")).unwrap_err().to_string();
         assert!(error.starts_with("there is no folder `"), "{error}");
         for name in ["", "..", "/"] {
-            let place = Place::of(Path::new(name));
+            let place = Place::resolve(Path::new(name));
             assert!(place.is_err() || place.unwrap().is_folder(), "{name}");
         }
     }

@@ -22,7 +22,7 @@ const TOP: f64 = 112.0;
 /// box, returns to zero. A wire that a box does not use is thin within the box. The numbers below
 /// the boxes are their Toffoli counts.
 pub fn frame(inspection: &Inspection, scene: &str) -> Canvas {
-    let frame = Frame::of(inspection);
+    let frame = Frame::new(inspection);
     let total = inspection.total();
     let right = LEFT + COLUMN * frame.boxes.len() as f64 + 30.0;
     let bottom = TOP + ROW * frame.wires.len() as f64;

@@ -182,7 +182,7 @@ impl<'a> Map<'a> {
             let hint = format!("{}: {ty}, {block}", register.name);
             // On a rectangle below three pixels high, an edge would hide the fill.
             let edge = if place[3] >= 3.0 { " edge" } else { "" };
-            let class = format!("{}{edge}", class(Role::of(register)));
+            let class = format!("{}{edge}", class(Role::from_register(register)));
             canvas.hinted(&class, place, &hint);
             let label = format!("{}: {ty}", register.name);
             if place[3] >= 13.0 && place[2] >= text_width(&label) {
@@ -194,7 +194,7 @@ impl<'a> Map<'a> {
     }
 
     fn role(&self, lifetime: &Lifetime) -> Role {
-        Role::of(&self.inspection.whole.registers[lifetime.register.index()])
+        Role::from_register(&self.inspection.whole.registers[lifetime.register.index()])
     }
 
     /// Draws the qubits in use. An instruction that is at least one column of pixels wide has a

@@ -35,7 +35,7 @@ fn both() -> [Inspection; 2] {
 #[test]
 fn the_drawing_for_terminals_has_a_line_for_each_box_and_fits() {
     for inspection in both() {
-        let frame = Frame::of(&inspection);
+        let frame = Frame::new(&inspection);
         let text = frame_text(&frame);
         assert!(
             text.lines().all(|line| line.chars().count() <= 100),
@@ -58,7 +58,7 @@ fn the_drawing_for_terminals_has_a_line_for_each_box_and_fits() {
 fn wires_of_a_depth_are_drawn_as_one_where_they_are_too_many() {
     let depths = ["{ bits: [1, 1] }"; 8].join(", ");
     let inspection = inspection(&[&format!("sampling.depths=[{depths}]")]);
-    let text = frame_text(&Frame::of(&inspection));
+    let text = frame_text(&Frame::new(&inspection));
     assert!(text.contains(" depth 7: "), "{text}");
     assert!(
         text.lines().all(|line| line.chars().count() <= 100),

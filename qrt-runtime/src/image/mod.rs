@@ -77,12 +77,12 @@ impl Encoding {
     /// ```
     /// use qrt_runtime::image::Encoding;
     /// use std::path::Path;
-    /// let encoding = Encoding::of(Path::new("box.png"), Some(1.5))?;
+    /// let encoding = Encoding::for_path(Path::new("box.png"), Some(1.5))?;
     /// assert_eq!(encoding, Encoding::Png { exposure: 1.5 });
-    /// assert!(Encoding::of(Path::new("box.jpg"), None).is_err());
+    /// assert!(Encoding::for_path(Path::new("box.jpg"), None).is_err());
     /// # Ok::<(), qrt_runtime::image::ImageError>(())
     /// ```
-    pub fn of(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
+    pub fn for_path(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
         let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
         let encoding = match (
             extension.as_deref().and_then(std::ffi::OsStr::to_str),
@@ -126,7 +126,7 @@ impl Encoding {
 /// use qrt_runtime::image::{Encoding, Image, Metadata, save};
 /// let path = std::env::temp_dir().join(format!("qrt-doc-{}.png", std::process::id()));
 /// let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.5, 1.0], [0.2, 0.2, 17.0]], window: None };
-/// let clipped = save(&path, &image, &Metadata::new(), Encoding::of(&path, None)?)?;
+/// let clipped = save(&path, &image, &Metadata::new(), Encoding::for_path(&path, None)?)?;
 /// assert_eq!(clipped, 1);
 /// # std::fs::remove_file(path).ok();
 /// # Ok::<(), qrt_runtime::image::ImageError>(())

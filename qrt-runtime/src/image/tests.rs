@@ -261,7 +261,7 @@ fn a_value_that_no_file_can_hold_is_refused_and_nothing_is_written() {
 
 #[test]
 fn a_name_or_exposure_that_cannot_be_is_known_beforehand() {
-    let of = |name: &str, exposure| Encoding::of(Path::new(name), exposure);
+    let of = |name: &str, exposure| Encoding::for_path(Path::new(name), exposure);
     assert_eq!(of("A.PNG", None).unwrap(), PNG);
     assert_eq!(of("a.b/c.exr", None).unwrap(), Encoding::Exr);
     for name in [

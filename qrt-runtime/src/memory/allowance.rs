@@ -70,7 +70,7 @@ const RAYS: [usize; 2] = [4, 8];
 ///
 /// ```
 /// use qrt_runtime::memory::Memory;
-/// let little = Memory::of(Some(1 << 20));
+/// let little = Memory::new(Some(1 << 20));
 /// assert!(little.keep_picture([64, 64]).is_ok());
 /// let refused = little.keep_picture([4096, 4096]).unwrap_err();
 /// assert!(refused.to_string().contains("4096 x 4096 pixels would take about 1.7 GB"));
@@ -82,7 +82,10 @@ pub struct Memory {
 
 /// An error that work would exceed the memory budget.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{what} would take about {} of memory, and {} are allowed: {lower}", words(*.bytes), words(*.allowed as f64))]
+#[error(
+    "{what} would take about {} of memory, and {} are allowed: {lower}",
+    bytes_text(*.bytes), bytes_text(*.allowed as f64)
+)]
 pub struct MemoryError {
     /// The work that would exceed the budget.
     pub what: String,
@@ -106,7 +109,7 @@ pub enum CircuitWork {
 }
 
 /// Formats bytes, in the largest unit of which there is at least one.
-fn words(bytes: f64) -> String {
+fn bytes_text(bytes: f64) -> String {
     let (value, unit) = match bytes {
         bytes if bytes < 1e3 => return format!("{bytes:.0} bytes"),
         bytes if bytes < 1e6 => (bytes / 1e3, "kB"),
@@ -120,14 +123,14 @@ fn words(bytes: f64) -> String {
 
 impl Default for Memory {
     fn default() -> Self {
-        Self::of(None)
+        Self::new(None)
     }
 }
 
 impl Memory {
     /// A budget of `bytes`; if `None`, three quarters of the memory that the process may use, or no
     /// limit if the system does not report that.
-    pub fn of(bytes: Option<u64>) -> Self {
+    pub fn new(bytes: Option<u64>) -> Self {
         let usual = || allowed_bytes().map_or(u64::MAX, |bytes| bytes / 4 * 3);
         Self {
             bytes: bytes.unwrap_or_else(usual),
@@ -139,7 +142,7 @@ impl Memory {
         usize::try_from(self.bytes / OF_FACE).unwrap_or(usize::MAX)
     }
 
-    fn keep(self, what: &str, bytes: f64, lower: &'static str) -> Result<(), MemoryError> {
+    fn check(self, what: &str, bytes: f64, lower: &'static str) -> Result<(), MemoryError> {
         if bytes <= self.bytes as f64 {
             return Ok(());
         }
@@ -159,7 +162,7 @@ impl Memory {
     pub fn keep_compared(self, [width, height]: [u64; 2]) -> Result<(), MemoryError> {
         let pixels = width as f64 * height as f64;
         let what = format!("comparing pictures of {width} x {height} pixels");
-        self.keep(
+        self.check(
             &what,
             pixels * OF_COMPARED_PIXEL as f64,
             "compare crops of them",
@@ -174,7 +177,7 @@ impl Memory {
         let pixels = f64::from(width) * f64::from(height);
         let what = format!("a picture of {width} x {height} pixels");
         let lower = "render part of it with a crop, or a smaller film";
-        self.keep(&what, pixels * OF_PIXEL as f64, lower)
+        self.check(&what, pixels * OF_PIXEL as f64, lower)
     }
 
     /// Checks that parts of `bytes` bytes fit into the budget, together with the picture that is
@@ -184,7 +187,7 @@ impl Memory {
     /// If they do not fit.
     pub fn keep_parts(self, bytes: u64) -> Result<(), MemoryError> {
         let lower = "merge on another machine";
-        self.keep("merging these parts", 2.0 * bytes as f64, lower)
+        self.check("merging these parts", 2.0 * bytes as f64, lower)
     }
 
     /// Checks that the circuits of a plan fit into the budget, if the scene asks for an accuracy.
@@ -219,7 +222,7 @@ impl Memory {
         let (faces, rays) = (scene.polygons().len(), scene.scene().sampling.depths.len());
         let what = format!("the circuit of a scene of {faces} faces and paths of {rays} rays");
         let lower = "use a coarser mesh, or fewer rays";
-        self.keep(&what, whole.bytes(work), lower)?;
+        self.check(&what, whole.bytes(work), lower)?;
         Ok(Some(whole))
     }
 }
@@ -280,15 +283,15 @@ impl CircuitSize {
     fn of_rays(scene: &ValidScene) -> Option<Self> {
         let rays = scene.scene().sampling.depths.len();
         if expected_operations(scene) <= FEW_OPERATIONS || rays <= RAYS[1] {
-            return Self::of(scene);
+            return Self::compiled(scene);
         }
         let share = (rays - RAYS[0]) as f64 / (RAYS[1] - RAYS[0]) as f64;
-        let [few, more] = RAYS.map(|rays| Self::of(&scene.with_rays(rays)));
+        let [few, more] = RAYS.map(|rays| Self::compiled(&scene.with_rays(rays)));
         Some(few?.towards(&more?, share))
     }
 
     /// The size of a scene's oracle, if it has one, by compiling the oracle.
-    fn of(scene: &ValidScene) -> Option<Self> {
+    fn compiled(scene: &ValidScene) -> Option<Self> {
         let start = Instant::now();
         let program = Oracle::rgb(scene, Options::default()).ok()?.program;
         let mut gates = 0.0;
@@ -394,7 +397,7 @@ geometry:
             assert!(about > FEW_OPERATIONS, "{about}");
             let (told, real) = (
                 CircuitSize::estimated(&scene).unwrap(),
-                CircuitSize::of(&scene).unwrap(),
+                CircuitSize::compiled(&scene).unwrap(),
             );
             println!("{quads} quads, {rays} rays: {about}, {told:?}, {real:?}");
             for (told, real) in [
@@ -414,7 +417,7 @@ geometry:
         for (quads, rays) in [(200, 3), (60, 10), (10, 60)] {
             let scene = tunnel("lambertian: { albedo: [0.5, 0.4, 0.3] }", quads, rays);
             assert!(expected_operations(&scene) <= FEW_OPERATIONS);
-            let size = CircuitSize::of(&scene).unwrap();
+            let size = CircuitSize::compiled(&scene).unwrap();
             for work in [CircuitWork::Gates(16), CircuitWork::Export] {
                 let bytes = size.bytes(work);
                 println!("{quads} quads, {rays} rays, {work:?}: {bytes:.2e} bytes");
@@ -425,12 +428,12 @@ geometry:
 
     #[test]
     fn bytes_are_told_in_words() {
-        assert_eq!(words(7.2e9), "7.2 GB");
-        assert_eq!(words(687e9), "687 GB");
-        assert_eq!(words(3e6), "3.0 MB");
-        assert_eq!(words(10_240.0), "10.2 kB");
-        assert_eq!(words(999_999.0), "1000 kB");
-        assert_eq!(words(512.0), "512 bytes");
-        assert_eq!(words(0.0), "0 bytes");
+        assert_eq!(bytes_text(7.2e9), "7.2 GB");
+        assert_eq!(bytes_text(687e9), "687 GB");
+        assert_eq!(bytes_text(3e6), "3.0 MB");
+        assert_eq!(bytes_text(10_240.0), "10.2 kB");
+        assert_eq!(bytes_text(999_999.0), "1000 kB");
+        assert_eq!(bytes_text(512.0), "512 bytes");
+        assert_eq!(bytes_text(0.0), "0 bytes");
     }
 }

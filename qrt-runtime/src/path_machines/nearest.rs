@@ -182,7 +182,7 @@ impl NearestMachine {
                 if block.lanes() == most || last {
                     let (now, later) = marks.split_at_mut(block.lanes());
                     let (far, farther) = distances.split_at_mut(block.lanes());
-                    self.run(&block, now, far)?;
+                    self.run_block(&block, now, far)?;
                     (marks, distances) = (later, farther);
                     block.clear();
                 }
@@ -191,7 +191,7 @@ impl NearestMachine {
         Ok(())
     }
 
-    fn run(
+    fn run_block(
         &self,
         block: &RayBlock,
         marks: &mut [bool],
@@ -200,7 +200,11 @@ impl NearestMachine {
         if let Operand::Constant(value) = self.oracle.distance {
             distances.fill(value);
         }
-        let words: Vec<Vec<u64>> = block.runs.iter().map(|(ray, _)| self.words(ray)).collect();
+        let words: Vec<Vec<u64>> = block
+            .runs
+            .iter()
+            .map(|(ray, _)| self.parameter_words(ray))
+            .collect();
         let spans = block.runs.iter().zip(&words);
         let spans = spans.map(|(&(_, lanes), parameters)| Span { lanes, parameters });
         let spans: Vec<Span<'_>> = spans.collect();
@@ -276,8 +280,8 @@ impl NearestMachine {
     }
 
     /// The classical parameters of a ray's pixel.
-    fn words(&self, ray: &Asked) -> Vec<u64> {
-        self.oracle.words(self.seed, ray.pixel)
+    fn parameter_words(&self, ray: &Asked) -> Vec<u64> {
+        self.oracle.parameter_words(self.seed, ray.pixel)
     }
 }
 

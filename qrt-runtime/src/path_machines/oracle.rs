@@ -109,10 +109,15 @@ impl OracleMachine {
             fixed: Box::new(fixed),
             lanes: Pool::new(),
         };
-        Self::of(oracle, seed, outputs, machine)
+        Self::from_machine(oracle, seed, outputs, machine)
     }
 
-    fn of(oracle: Arc<Oracle>, seed: u64, outputs: Vec<Operand>, machine: Machine) -> Self {
+    fn from_machine(
+        oracle: Arc<Oracle>,
+        seed: u64,
+        outputs: Vec<Operand>,
+        machine: Machine,
+    ) -> Self {
         Self {
             oracle,
             seed,
@@ -148,10 +153,10 @@ impl OracleMachine {
     ) -> Self {
         let outputs = outputs(&oracle, colours);
         let machine = Machine::Native {
-            run: native::run::<C>,
+            run: native::compute_runs::<C>,
             instructions,
         };
-        Self::of(oracle, seed, outputs, machine)
+        Self::from_machine(oracle, seed, outputs, machine)
     }
 
     /// Creates a gates machine, and tests the block between compute and uncompute for every colour
@@ -196,7 +201,7 @@ impl OracleMachine {
             room,
             parts: Box::new(parts),
         };
-        Ok(Self::of(oracle, seed, outputs, machine))
+        Ok(Self::from_machine(oracle, seed, outputs, machine))
     }
 
     /// Sets the search for primary hits. An oracle needs one if primary hits are its inputs.
@@ -257,7 +262,10 @@ impl OracleMachine {
         ids: Range<u64>,
         mut finished: impl FnMut(Finished<'_>),
     ) -> Result<(), Defect> {
-        let parameters: Vec<Vec<u64>> = pixels.iter().map(|&pixel| self.words(pixel)).collect();
+        let parameters: Vec<Vec<u64>> = pixels
+            .iter()
+            .map(|&pixel| self.parameter_words(pixel))
+            .collect();
         let most = match &self.machine {
             Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
             Machine::Gates { gates, at_once, .. } => at_once * gates.lanes(),
@@ -285,7 +293,7 @@ impl OracleMachine {
                 first += count;
                 let last = pixel + 1 == pixels.len() && first == ids.end;
                 if block.ids.len() == most || last {
-                    self.run(cancel, &mut block, &parameters)?;
+                    self.run_block(cancel, &mut block, &parameters)?;
                     self.hand_over(&block, &mut finished);
                     block.ids.clear();
                     block.runs.clear();
@@ -323,13 +331,13 @@ impl OracleMachine {
             queries: Vec::new(),
             values: vec![vec![0]; words.len()],
         };
-        self.run(None, &mut block, &[self.words(pixel)])?;
+        self.run_block(None, &mut block, &[self.parameter_words(pixel)])?;
         Ok(block.values.iter().map(|values| values[0]).collect())
     }
 
     /// The classical parameters of a pixel.
-    fn words(&self, pixel: [u32; 2]) -> Vec<u64> {
-        self.oracle.words(self.seed, pixel)
+    fn parameter_words(&self, pixel: [u32; 2]) -> Vec<u64> {
+        self.oracle.parameter_words(self.seed, pixel)
     }
 
     /// Position of the luminance's count among the outputs.
@@ -366,7 +374,7 @@ impl OracleMachine {
         }
     }
 
-    fn run(
+    fn run_block(
         &self,
         cancel: Option<&AtomicBool>,
         block: &mut OracleBlock,

@@ -189,7 +189,7 @@ impl Real {
         let mut inputs = real.inputs(Some(numbers.watched()));
         let mut colours = [[0.0; BLOCK]; 3];
         real.fill(&mut inputs, pixel, id, 0..1);
-        real.run(&inputs, 1, &mut colours);
+        real.trace_block(&inputs, 1, &mut colours);
         let Some(watched) = &inputs.watched else {
             return Ok(Vec::new());
         };
@@ -256,7 +256,7 @@ impl Real {
                 first += count as u64;
                 filled += count;
                 if filled == BLOCK || (number + 1 == pixels.len() && first == ids.end) {
-                    self.run(&inputs, filled, &mut colours);
+                    self.trace_block(&inputs, filled, &mut colours);
                     if let Some(mark) = &mut mark {
                         mark(&self.stage, (&inputs, filled), &mut colours);
                     }
@@ -302,7 +302,7 @@ impl Real {
         sums
     }
 
-    fn run(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
+    fn trace_block(&self, inputs: &Inputs, count: usize, colours: &mut [[f64; BLOCK]; 3]) {
         let block = TraceTask {
             stage: &self.stage,
             bvh: self.bvh.as_ref(),

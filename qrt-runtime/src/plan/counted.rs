@@ -56,7 +56,7 @@ impl Pilot<'_> {
         } else {
             Countable::Octaves(&self.octaves)
         };
-        let found = draws.of(&self.pixels, &countable)?;
+        let found = draws.draw(&self.pixels, &countable)?;
         let by_draw = |draw: usize| {
             let pixels = found.iter().zip(&good).zip(&self.bounds);
             let off = |((drawn, good), bound): ((&Drawn, &[u64; 3]), &[f64; 3])| {

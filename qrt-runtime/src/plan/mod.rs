@@ -73,7 +73,7 @@ pub fn plan(scene: &ValidScene, options: &Options<'_>) -> Result<Option<Plan>, P
         return Ok(None);
     };
     let estimator = options.estimator.unwrap_or(Counting::default().estimator);
-    options.workers.run(|| {
+    options.workers.on_threads(|| {
         let pilot = Pilot::new(scene, accuracy, estimator, options)?;
         search::search(pilot).map(Some)
     })?

@@ -105,7 +105,7 @@ impl<'a> Pilot<'a> {
         }
         let bounds: Vec<[f64; 3]> = pixels
             .iter()
-            .map(|&pixel| bound_of[classes.of(pixel) as usize])
+            .map(|&pixel| bound_of[classes.class(pixel) as usize])
             .collect();
         let mean_of = |key: u64| {
             let machine = Real::new(&net(scene, MEAN.1)?, key)?;
@@ -203,7 +203,7 @@ impl<'a> Pilot<'a> {
         let points = (0..)
             .zip(last)
             .map(|(k, errors)| (f64::from(k) * std::f64::consts::LOG10_2, root(errors)));
-        let fit = qrt_drawing::Fit::of(points.filter(|p| p.1.is_finite()));
+        let fit = qrt_drawing::Fit::from_points(points.filter(|p| p.1.is_finite()));
         fit.map_or(0.0, |fit| (fit.slope + fit.slope_band).clamp(-1.0, 0.0))
     }
 
@@ -359,6 +359,6 @@ fn of_bits(scene: &ValidScene, bits: u32) -> Result<ValidScene, PlanError> {
 pub(super) fn valid(scene: &ValidScene, parameters: Parameters) -> Result<ValidScene, PlanError> {
     scene.with_parameters(parameters).map_err(|problems| {
         let first = problems.into_iter().next();
-        unreachable(first.map_or_else(String::new, |problem| problem.words().message))
+        unreachable(first.map_or_else(String::new, |problem| problem.description().message))
     })
 }

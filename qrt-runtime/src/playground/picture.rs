@@ -156,7 +156,7 @@ impl Picture {
     }
 
     fn machine(&self, pixel: [u32; 2]) -> &Machine {
-        let class = self.classes.of(pixel);
+        let class = self.classes.class(pixel);
         let found = self.machines.iter().find(|(of, _)| *of == class);
         // `machines` has an entry for every class of the picture's pixels.
         &found.unwrap_or(&self.machines[0]).1
@@ -274,10 +274,10 @@ impl Picture {
         let tallies = &self.tallies[range.clone()];
         let drawn = if counting.may_count_strata() {
             let octaves: Vec<[Octaves; 3]> = tallies.iter().map(|t| t.octaves.clone()).collect();
-            draws.of(pixels, &Countable::Octaves(&octaves))?
+            draws.draw(pixels, &Countable::Octaves(&octaves))?
         } else {
             let good: Vec<[u64; 3]> = tallies.iter().map(|t| t.good[0]).collect();
-            draws.of(pixels, &Countable::Whole(&good))?
+            draws.draw(pixels, &Countable::Whole(&good))?
         };
         let (mut sum, mut squares, mut queries) = (0.0, 0.0, 0);
         for (place, drawn) in range.clone().zip(drawn) {

@@ -28,7 +28,7 @@ pub(super) fn pixel(
     if pixel[0] >= written.film.width || pixel[1] >= written.film.height {
         return Err(Refused::Outside(pixel[0], pixel[1]));
     }
-    let class = PixelClasses::new(scene).of(pixel);
+    let class = PixelClasses::new(scene).class(pixel);
     let real = Real::of_class(scene, seed, class)?;
     let bound = real.stage().bound();
     let comparators = Comparators::rgb(bound, written.comparator)?;
@@ -71,7 +71,7 @@ pub(super) fn pixel(
     let told: Vec<String> = brightest
         .iter()
         .map(|&(_, id)| {
-            Ok(told(
+            Ok(path_line(
                 id,
                 &trace_path_of(scene, Model::Real, seed, pixel, id)?,
             ))
@@ -99,7 +99,7 @@ pub(super) fn pixel(
 }
 
 /// Formats a path like `37: floor, wall, lamp: 0.42 0.4 0.31`.
-fn told(id: u64, path: &TracedPath<'_>) -> String {
+fn path_line(id: u64, path: &TracedPath<'_>) -> String {
     let mut told = id.to_string() + ": ";
     for (place, ray) in path.rays.iter().enumerate() {
         if place > 0 {

@@ -173,7 +173,7 @@ pub fn count_where<S: PathScene>(
     options: &Options<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
 ) -> Result<Counted, RenderError> {
-    let predicate = Predicate::of::<S>(predicate)?;
+    let predicate = Predicate::record::<S>(predicate)?;
     check(&predicate, options)?;
     let scene = predicate.scene();
     let name = options.counted_by(scene.scene())?;
@@ -200,7 +200,7 @@ pub fn count_where<S: PathScene>(
     let finished = AtomicU64::new(0);
     let counted = slow_build::noting(&options.workers, options.quiet, |workers| {
         workers.report(Progress::Started { total, resumed: 0 });
-        workers.run(|| {
+        workers.on_threads(|| {
             let jobs = (0..chunks.len() as u64 * runs).into_par_iter();
             let counted = jobs.map(|job| {
                 if workers.cancelled() {
@@ -232,7 +232,7 @@ pub fn count_where<S: PathScene>(
     let settings = Settings {
         // There are no comparators, and so no strata of comparators.
         strata: None,
-        ..Settings::of(&scene.scene().counting)?
+        ..Settings::from_counting(&scene.scene().counting)?
     };
     let estimator = options.estimator_of(name, &settings)?;
     let estimated = pixels.into_iter().zip(good).map(|(pixel, good)| {

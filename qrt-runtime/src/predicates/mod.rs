@@ -56,7 +56,7 @@ pub fn render_where<S: PathScene>(
     options: &Options<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
 ) -> Result<Rendered, RenderError> {
-    let predicate = Predicate::of::<S>(predicate)?;
+    let predicate = Predicate::record::<S>(predicate)?;
     check(&predicate, options)?;
     render_predicate(&predicate, options)
 }

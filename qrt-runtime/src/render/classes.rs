@@ -1,7 +1,8 @@
 //! Pixels by class: a pixel whose camera rays may meet a lamp has another colour scale than others.
 
 use super::parts::Parts;
-use super::pixel::{Pixels, Stop};
+use super::pixel::Pixels;
+use super::stop::Stop;
 use super::totals::Totals;
 use super::{RenderError, Request, Searched};
 use crate::workers::Workers;
@@ -38,7 +39,7 @@ impl Classes {
 
     /// Returns the entry for the class of a pixel.
     pub(super) fn at(&self, pixel: [u32; 2]) -> &Pixels {
-        let class = self.of.of(pixel);
+        let class = self.of.class(pixel);
         let mut pixels = self.pixels.iter();
         let found = pixels.find(|(of, _)| *of == class);
         // There is an entry for each class of the scene's pixels.
@@ -59,8 +60,8 @@ impl Classes {
         self.pixels.iter().any(|(_, pixels)| pixels.splits())
     }
 
-    /// Adds the totals of all paths of `places`, pixels of few paths: see [`Pixels::few`].
-    pub(super) fn few(
+    /// Adds the totals of all paths of `places`, pixels of few paths: see [`Pixels::trace_group`].
+    pub(super) fn trace_group(
         &self,
         places: &[[u32; 2]],
         totals: &mut [Option<Totals>],
@@ -68,9 +69,9 @@ impl Classes {
         kept: &Parts<'_>,
     ) -> Result<(), Stop> {
         self.pixels.iter().try_for_each(|(class, pixels)| {
-            let mine = (0..places.len()).filter(|&n| self.of.of(places[n]) == *class);
+            let mine = (0..places.len()).filter(|&n| self.of.class(places[n]) == *class);
             let mine: Vec<usize> = mine.collect();
-            pixels.few(places, &mine, totals, workers, kept)
+            pixels.trace_group(places, &mine, totals, workers, kept)
         })
     }
 }
@@ -86,7 +87,7 @@ impl Scales {
     /// The proven bound on a path's colour in pixel (column, row) per channel: the radiance of
     /// S = N.
     pub fn at(&self, pixel: [u32; 2]) -> [f64; 3] {
-        let class = self.of.of(pixel);
+        let class = self.of.class(pixel);
         let mut bounds = self.bounds.iter();
         let found = bounds.find(|(of, _)| *of == class);
         found.unwrap_or(&self.bounds[0]).1

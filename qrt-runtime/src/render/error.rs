@@ -261,7 +261,9 @@ impl RenderError {
 }
 
 fn first(problems: &[Problem]) -> String {
-    let first = problems.first().map(|problem| problem.words().message);
+    let first = problems
+        .first()
+        .map(|problem| problem.description().message);
     first.unwrap_or_default()
 }
 

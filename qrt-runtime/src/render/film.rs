@@ -1,13 +1,16 @@
 //! The finished pixels of a picture, and the checkpoint that keeps them.
 
-use super::parts::Kept;
 use super::tiles::{pixels, rows};
 use super::{Options, RenderError};
 use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, Part, Tile};
 use crate::image::{Image, Window};
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
+
+/// Parts of pixels, by pixel and number.
+pub(super) type Kept = BTreeMap<([u32; 2], u64), Part>;
 
 /// The finished pixels of a picture, with its checkpoint.
 pub(super) struct Film {
@@ -117,7 +120,7 @@ impl Film {
     }
 
     /// Adds a tile that took the time `took`, after writing it to the checkpoint.
-    pub(super) fn keep(&mut self, tile: &Tile, took: Duration) -> Result<(), RenderError> {
+    pub(super) fn keep_tile(&mut self, tile: &Tile, took: Duration) -> Result<(), RenderError> {
         if let Some(checkpoint) = &mut self.checkpoint {
             checkpoint.append(tile)?;
             // The next tile may take as long, so this one must not wait for it to become durable.

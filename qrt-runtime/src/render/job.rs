@@ -1,13 +1,12 @@
 //! The work on a picture, tile by tile on all threads.
 
 use super::classes::Classes;
-use super::film::Film;
-use super::parts::{Kept, Parts};
-use super::picture_part::counts_good;
-use super::pixel::{Stop, go_on};
+use super::film::{Film, Kept};
+use super::parts::Parts;
+use super::stop::{Stop, go_on};
 use super::tiles::{self, Tiles};
 use super::totals::Totals;
-use super::{RenderError, Rendered, Request};
+use super::{Colour, Model, RenderError, Rendered, Request};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::{Progress, Workers, slow_build};
 use rayon::prelude::*;
@@ -46,7 +45,7 @@ impl<'a> Job<'a> {
     }
 
     /// Renders all tiles that the checkpoint does not have. Returns the checkpoint open.
-    pub(super) fn run(self) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
+    pub(super) fn render(self) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
         let Request {
             scene,
             options,
@@ -64,7 +63,7 @@ impl<'a> Job<'a> {
                 total: area * paths,
                 resumed: resumed_paths,
             });
-            workers.run(|| {
+            workers.on_threads(|| {
                 let start = Instant::now();
                 // Threads take tiles one by one, because halves of a film rarely take equally long.
                 let tiles = (0..self.tiles.count() as usize).into_par_iter();
@@ -132,7 +131,7 @@ impl<'a> Job<'a> {
 
     fn tile(&self, number: u64, workers: &Workers<'_>) -> Result<(), Stop> {
         let crop = self.request.crop;
-        let mut tile = Tile::of(self.tiles.rectangle(number));
+        let mut tile = Tile::new(self.tiles.rectangle(number));
         let resumed = |row| {
             self.resumed
                 .get(row)
@@ -146,13 +145,18 @@ impl<'a> Job<'a> {
         let places: Vec<[u32; 2]> = tiles::pixels(self.tiles.rectangle(number)).collect();
         if self.pixels.splits() {
             for &place in &places {
-                let totals = self.pixels.at(place).many(place, workers, &self.parts())?;
+                let totals = self
+                    .pixels
+                    .at(place)
+                    .trace_in_parts(place, workers, &self.parts())?;
                 self.finish(&mut tile, place, &totals)?;
             }
         } else {
             let mut totals = vec![None; places.len()];
             let kept = self.parts();
-            let traced = self.pixels.few(&places, &mut totals, workers, &kept);
+            let traced = self
+                .pixels
+                .trace_group(&places, &mut totals, workers, &kept);
             let of_pixels = || {
                 let all = places.iter().zip(&totals);
                 all.filter_map(|(&place, totals)| Some((place, totals.as_ref()?)))
@@ -167,12 +171,12 @@ impl<'a> Job<'a> {
                 // Keep the pixels that are traced but not counted yet, so that a resumed render
                 // does not trace them again.
                 let part = |(place, totals)| self.pixels.at(place).whole(place, totals);
-                kept.keeper().keep(of_pixels().map(part))?;
+                kept.keeper().keep_parts(of_pixels().map(part))?;
                 return Err(stop);
             }
         }
         let mut film = self.film.lock().unwrap_or_else(PoisonError::into_inner);
-        film.keep(&tile, start.elapsed())?;
+        film.keep_tile(&tile, start.elapsed())?;
         Ok(())
     }
 
@@ -195,6 +199,11 @@ impl<'a> Job<'a> {
         tile.strata.push(pixel.strata);
         Ok(())
     }
+}
+
+/// Returns whether a picture has the numbers S of good indices of its channels.
+pub(super) fn counts_good(model: Model, colour: Colour) -> bool {
+    model != Model::Real && colour == Colour::ThreeRuns
 }
 
 /// Closes the checkpoint, and returns whether a later render can continue from it.

@@ -61,6 +61,8 @@ mod parts;
 mod picture_part;
 mod pixel;
 mod portion;
+mod source;
+mod stop;
 mod tiles;
 mod totals;
 mod visibility;
@@ -82,12 +84,13 @@ use crate::plan::{self, Figures, Plan, plan};
 use crate::workers::Workers;
 use classes::Classes;
 use job::Job;
-use pixel::{Pixels, Source};
+use pixel::Pixels;
 use qrt_core::oracle::{self, Marks, Oracle, OracleError, Predicate};
 use qrt_core::tracer::PixelClass;
 use qrt_counting::estimators::Noise;
 use qrt_scene::Estimator;
 use qrt_scene::valid::{Parameters, ValidScene};
+use source::Source;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use tiles::Tiles;
@@ -346,7 +349,7 @@ fn render_portion<T>(
     check_circuit(traced, options)?;
     let (classes, searched) = Classes::new(&request)?;
     let told = told(&request);
-    let (rendered, checkpoint) = Job::new(request, classes)?.run()?;
+    let (rendered, checkpoint) = Job::new(request, classes)?.render()?;
     let rendered = Rendered {
         scene_hash: scene.fingerprint().to_string(),
         plan: chosen.map(|plan| plan.figures),
@@ -383,7 +386,7 @@ pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendere
     };
     let pixels = request.pixels(Source::Oracle(machine))?;
     let job = Job::new(request, Classes::one(pixels))?;
-    job.run().map(without_checkpoint)
+    job.render().map(without_checkpoint)
 }
 
 fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) -> Rendered {
@@ -405,7 +408,7 @@ pub(crate) fn render_predicate(
         ..Request::new(scene, options, crop_of(scene, options)?)?
     };
     let (classes, _) = Classes::new(&request)?;
-    Job::new(request, classes)?.run().map(without_checkpoint)
+    Job::new(request, classes)?.render().map(without_checkpoint)
 }
 
 /// A valid request for a picture: its parameters are chosen, and its crop is on the film.

@@ -16,7 +16,8 @@
 //! whose size is the number of measured good indices; it is 0 if all paths have one colour. If no
 //! good index was measured, the pixel is grey: [`Options::expected_grey`].
 
-use super::pixel::{Pixels, Source, Stop, ended, go_on};
+use super::source::Source;
+use super::stop::{Stop, ended, go_on};
 use super::{Colour, Options, RenderError};
 use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
@@ -50,7 +51,7 @@ impl Options<'_> {
         }
         let counting = &traced.scene().counting;
         let known = self.counted_by(traced.scene())?;
-        let estimator = self.estimator_of(known, &Settings::of(counting)?)?;
+        let estimator = self.estimator_of(known, &Settings::from_counting(counting)?)?;
         Ok(estimator.misses())
     }
 }
@@ -101,7 +102,7 @@ impl Segments {
     }
 
     /// Encodes the segments, so that they can be continued later.
-    pub(super) fn words(&self, words: &mut Vec<u64>) {
+    pub(super) fn append_words(&self, words: &mut Vec<u64>) {
         words.extend([self.paths, self.sums.len() as u64]);
         words.extend(&self.sums);
         for (paths, sum) in self.octaves.iter().flat_map(Octaves::by_length) {
@@ -188,10 +189,11 @@ impl OneRun {
         u64::from(self.comparators.good(luminance(colour)))
     }
 
-    /// Returns the colour of a pixel, and the estimate of its luminance.
+    /// Returns the colour of a pixel, and the estimate of its luminance. `source` traces the
+    /// measured paths again; `seed` is the key of the draws.
     pub(super) fn finish(
         &self,
-        pixels: &Pixels,
+        (source, seed): (&Source, u64),
         (estimator, noise): (&dyn AmplitudeEstimator, Noise),
         [x, y]: [u32; 2],
         segments: &Segments,
@@ -200,7 +202,7 @@ impl OneRun {
         if self.comparators.step() == 0.0 {
             return Ok(([0.0; 3], None));
         }
-        let mut stream = Stream::new(pixels.seed(), x, y, LUMINANCE_CHANNEL as u8);
+        let mut stream = Stream::new(seed, x, y, LUMINANCE_CHANNEL as u8);
         let mut device = self.device(segments, noise, &mut stream)?;
         let estimate = estimator.estimate(&mut device)?;
         let whole = CountedStratum {
@@ -228,7 +230,7 @@ impl OneRun {
                 paths: segments.paths,
                 workers,
             };
-            self.paths_of(pixels, [x, y], &places, &ids, |colour| {
+            self.paths_of(source, [x, y], &places, &ids, |colour| {
                 let luminance = luminance(&colour);
                 // A colour may round to black while its luminance does not.
                 if luminance > 0.0 {
@@ -285,7 +287,7 @@ impl OneRun {
     /// Calls `colour` with the colours of the paths of the good indices `ids`, which are sorted.
     fn paths_of(
         &self,
-        pixels: &Pixels,
+        source: &Source,
         pixel: [u32; 2],
         places: &GoodPaths<'_>,
         ids: &[u64],
@@ -300,8 +302,8 @@ impl OneRun {
                 let mut before = first;
                 let mut run = start;
                 while run < end {
-                    let next = (run + pixels.run()).min(end);
-                    self.trace(pixels, pixel, run..next, places.workers, |count, rgb| {
+                    let next = (run + source.run_length()).min(end);
+                    self.trace(source, pixel, run..next, places.workers, |count, rgb| {
                         let good = places.stratum.good(count);
                         while ids.next_if(|&id| id < before + good).is_some() {
                             colour(rgb);
@@ -320,14 +322,14 @@ impl OneRun {
     /// colour.
     fn trace(
         &self,
-        pixels: &Pixels,
+        source: &Source,
         pixel: [u32; 2],
         paths: Range<u64>,
         workers: &Workers<'_>,
         mut path: impl FnMut(u64, [f64; 3]),
     ) -> Result<(), Stop> {
         go_on(workers)?;
-        match pixels.source() {
+        match source {
             Source::Real(real) => {
                 real.trace_range(&[pixel], paths, |block| {
                     let [r, g, b] = block.colours;
@@ -339,7 +341,7 @@ impl OneRun {
             }
             Source::Oracle(machine) => {
                 let unit = 1.0 / (1_u64 << machine.oracle().fraction) as f64;
-                let bound = pixels.bound();
+                let bound = source.bound();
                 let traced = machine.trace_until(workers.cancel, &[pixel], paths, |finished| {
                     let [r, g, b] = finished.colours;
                     for (place, good) in finished.luminance.iter().enumerate() {

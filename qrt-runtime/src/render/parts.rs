@@ -1,14 +1,10 @@
 //! Parts of pixels of very many paths, which are kept before the pixels are finished.
 
 use super::RenderError;
-use super::film::Film;
+use super::film::{Film, Kept};
 use crate::checkpoint::{AT_STAKE, Part};
-use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-
-/// Parts of pixels, by pixel and number.
-pub(super) type Kept = BTreeMap<([u32; 2], u64), Part>;
 
 /// The checkpoint's parts of unfinished pixels, and the film that keeps new parts.
 #[derive(Clone, Copy, Default)]
@@ -46,7 +42,7 @@ impl Keeper<'_> {
     }
 
     /// Keeps `parts`; a part may have only the paths traced so far.
-    pub(super) fn keep(
+    pub(super) fn keep_parts(
         &mut self,
         parts: impl IntoIterator<Item = Part>,
     ) -> Result<(), RenderError> {

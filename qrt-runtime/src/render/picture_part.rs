@@ -8,7 +8,7 @@
 //! the last bit.
 
 use super::film::Film;
-use super::job::{PORTION, header};
+use super::job::{PORTION, counts_good, header};
 use super::own::PREFIX;
 use super::tiles::{Tiles, rows};
 use super::{
@@ -211,7 +211,7 @@ impl PicturePart {
         let tiles = self.tiles();
         let mut bytes = self.header.encode();
         for number in 0..tiles.count() {
-            let mut tile = Tile::of(tiles.rectangle(number));
+            let mut tile = Tile::new(tiles.rectangle(number));
             for row in rows(&tile.clone(), *crop) {
                 tile.pixels.extend(&image.pixels[row.clone()]);
                 tile.queries.extend(&queries[row.clone()]);
@@ -226,7 +226,7 @@ impl PicturePart {
         }
         let ending = Ending {
             text: format!("{}\n{}", self.rendered.scene_hash, self.written),
-            words: words(&self.rendered),
+            words: property_words(&self.rendered),
         };
         bytes.extend(ending.encode());
         bytes
@@ -298,7 +298,7 @@ impl Merge {
                 portion,
             });
         }
-        let read = Read::of(name, portion, &header, rest)?;
+        let read = Read::decode(name, portion, &header, rest)?;
         self.parts.insert(portion.index(), read);
         Ok(())
     }
@@ -352,11 +352,6 @@ impl Merge {
     }
 }
 
-/// Returns whether a picture has the numbers S of good indices of its channels.
-pub(super) fn counts_good(model: Model, colour: Colour) -> bool {
-    model != Model::Real && colour == Colour::ThreeRuns
-}
-
 /// Decodes the header of a part: its portion, and the properties that it shares with the other
 /// parts.
 fn of_header(name: &str, rest: &mut &[u8]) -> Result<(Portion, Header), MergeError> {
@@ -379,7 +374,7 @@ fn of_header(name: &str, rest: &mut &[u8]) -> Result<(Portion, Header), MergeErr
 
 impl Read {
     /// Decodes the records behind the header.
-    fn of(
+    fn decode(
         name: String,
         portion: Portion,
         header: &Header,
@@ -421,7 +416,7 @@ impl Read {
 }
 
 /// Encodes the properties of a picture other than its pixels; [`rendered`] decodes them.
-fn words(rendered: &Rendered) -> Vec<u64> {
+fn property_words(rendered: &Rendered) -> Vec<u64> {
     let mut words = vec![
         place(&Model::ALL, &rendered.model),
         place(&Colour::ALL, &rendered.colour),
@@ -555,7 +550,7 @@ impl Words<'_> {
     }
 
     /// Returns the value with the place that the next word holds.
-    fn of<T: Copy>(&mut self, all: &[T]) -> Option<T> {
+    fn one_of<T: Copy>(&mut self, all: &[T]) -> Option<T> {
         let number: usize = self.word()?.try_into().ok()?;
         all.get(number).copied()
     }
@@ -593,9 +588,9 @@ impl Words<'_> {
                 total,
             },
             pixels: [self.word()?, self.word()?],
-            sequence: self.of(Sequence::ALL)?,
-            estimator: self.of(Estimator::ALL)?,
-            extrapolated: self.of(&[false, true])?,
+            sequence: self.one_of(Sequence::ALL)?,
+            estimator: self.one_of(Estimator::ALL)?,
+            extrapolated: self.one_of(&[false, true])?,
             path_bits: self.small()?,
             comparator_bits: self.small()?,
             phase_bits: self.small()?,
@@ -620,16 +615,16 @@ fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
     }
     let mut words = Words(ending.words.iter());
     let words = &mut words;
-    let model = words.of(&Model::ALL)?;
-    let colour = words.of(&Colour::ALL)?;
-    let estimator = words.of(Estimator::ALL)?;
+    let model = words.one_of(&Model::ALL)?;
+    let colour = words.one_of(&Colour::ALL)?;
+    let estimator = words.one_of(Estimator::ALL)?;
     let [depolarising, readout] = words.floats()?;
     let visibility = match words.word()? {
         0 => Visibility::Classical,
         1 => Visibility::Exhaustive,
         2 => Visibility::Grover {
             failure: words.float()?,
-            guess: words.of(&Guess::ALL)?,
+            guess: words.one_of(&Guess::ALL)?,
         },
         _ => return None,
     };
@@ -644,7 +639,7 @@ fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
     })?;
     let plan = words.maybe(Words::figures)?;
     let outlines = words.maybe(|words| words.list(|words| words.list(Words::floats)))?;
-    let bounds = words.list(|words| Some((words.of(&PixelClass::ALL)?, words.floats()?)))?;
+    let bounds = words.list(|words| Some((words.one_of(&PixelClass::ALL)?, words.floats()?)))?;
     if bounds.is_empty() {
         return None;
     }

@@ -2,10 +2,12 @@
 
 use super::one_run::OneRun;
 use super::parts::Parts;
+use super::source::{RUN, Source};
+use super::stop::{Stop, ended, go_on};
 use super::totals::Totals;
 use super::{BoxedEstimator, Colour, Options, RenderError};
 use crate::checkpoint::Part;
-use crate::path_machines::{Defect, OracleMachine, PathBlock, Real};
+use crate::path_machines::PathBlock;
 use crate::workers::{Progress, Workers};
 use qrt_core::oracle::luminance;
 use qrt_counting::estimators::{
@@ -17,8 +19,6 @@ use qrt_scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Number of paths that are traced in floating point between two checks for cancellation.
-const RUN: u64 = 1 << 16;
 /// With more paths than this, the paths of a pixel are cut into parts for several threads.
 const SPLIT: u64 = 1 << 18;
 /// The largest number of parts of a pixel.
@@ -38,7 +38,7 @@ pub(super) struct Pixel {
 
 impl Pixel {
     /// Adds the estimate of a channel.
-    fn take(&mut self, channel: usize, estimate: &Estimate, radiance: impl Fn(f64) -> f64) {
+    fn add_estimate(&mut self, channel: usize, estimate: &Estimate, radiance: impl Fn(f64) -> f64) {
         // The sum is at most 3 * 2^40 * 10^6, below 2^62.
         self.queries += estimate.queries;
         // There are at most 31 strata.
@@ -46,26 +46,6 @@ impl Pixel {
         let (low, high) = estimate.interval;
         self.widths[channel] = radiance(high) - radiance(low);
     }
-}
-
-/// The reason why the work on a pixel or a tile ended early.
-pub(super) enum Stop {
-    Cancelled,
-    Failed(RenderError),
-}
-
-impl<E: Into<RenderError>> From<E> for Stop {
-    fn from(error: E) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
-/// The machine that traces the paths.
-pub(super) enum Source {
-    /// A machine that returns colours, in radiance.
-    Real(Box<Real>),
-    /// A machine that returns counts of thresholds that colours exceed.
-    Oracle(OracleMachine),
 }
 
 /// Traces the paths of pixels, and computes the pixels' colours.
@@ -92,42 +72,6 @@ struct Counter {
     one_run: Option<OneRun>,
 }
 
-/// Checks that the work is not cancelled.
-pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
-    if workers.cancelled() {
-        return Err(Stop::Cancelled);
-    }
-    Ok(())
-}
-
-/// Converts a defect into the reason why a run of paths of this machine ended early.
-pub(super) fn ended(machine: &OracleMachine, defect: Defect) -> Stop {
-    match defect {
-        Defect::Cancelled => Stop::Cancelled,
-        Defect::OutOfBounds {
-            pixel,
-            id,
-            channel,
-            count,
-            most,
-        } => {
-            let oracle = machine.oracle();
-            let mut channels = oracle.channels.iter();
-            let of_channel = channels.find(|found| found.number == channel);
-            let bound = of_channel.map_or(0.0, |channel| channel.scale);
-            Stop::Failed(RenderError::OutOfBounds {
-                pixel,
-                id,
-                channel,
-                colour: bound * (count as f64 / most as f64),
-                bound,
-                fraction: Some(oracle.fraction),
-            })
-        }
-        defect => defect.into(),
-    }
-}
-
 fn report(workers: &Workers<'_>, paths: u64) {
     workers.report(Progress::Finished(paths));
 }
@@ -139,14 +83,10 @@ impl Pixels {
         estimate: Estimator,
         options: &Options<'_>,
     ) -> Result<Self, RenderError> {
-        let (bound, limit, paths) = match &source {
-            Source::Real(real) => (real.stage().bound(), real.stage().limit(), real.paths()),
-            Source::Oracle(machine) => {
-                let channels = &machine.oracle().channels;
-                let scale = |c: usize| channels.get(c).map_or(0.0, |channel| channel.scale);
-                let bound = [scale(0), scale(1), scale(2)];
-                (bound, bound, machine.paths())
-            }
+        let bound = source.bound();
+        let (limit, paths) = match &source {
+            Source::Real(real) => (real.stage().limit(), real.paths()),
+            Source::Oracle(machine) => (bound, machine.paths()),
         };
         for (channel, bound) in bound.into_iter().enumerate() {
             let summable = bound <= f64::MAX / 2.0 / paths as f64;
@@ -175,7 +115,7 @@ impl Pixels {
             };
             // A channel with scale 0 is not counted, so its settings have no effect.
             let settings = scales.iter().map(|&scale| match scale {
-                0.0 => Settings::of(&scene.counting),
+                0.0 => Settings::from_counting(&scene.counting),
                 scale => Settings::of_channel(&scene.counting, scale),
             });
             let estimators = settings.map(|settings| options.estimator_of(estimate, &settings?));
@@ -198,20 +138,12 @@ impl Pixels {
         })
     }
 
-    pub(super) fn source(&self) -> &Source {
-        &self.source
-    }
-
-    pub(super) fn seed(&self) -> u64 {
-        self.seed
-    }
-
     fn one_run(&self) -> Option<&OneRun> {
         self.counter.as_ref()?.one_run.as_ref()
     }
 
     /// Totals without any paths.
-    fn none(&self) -> Totals {
+    fn empty_totals(&self) -> Totals {
         let mut totals = Totals::default();
         if self.by_octaves() {
             totals.octaves = [(); 3].map(|()| Octaves::new(self.comparator_bits));
@@ -238,19 +170,11 @@ impl Pixels {
         }
     }
 
-    /// Number of paths between two checks for cancellation.
-    pub(super) fn run(&self) -> u64 {
-        match &self.source {
-            Source::Real(_) => RUN,
-            Source::Oracle(machine) => machine.paths_at_once(),
-        }
-    }
-
     /// Traces the pixels number `numbers` of `pixels`, which have few paths each, and puts their
     /// totals into `all`. Several pixels run together, as far as a run has room. Reports the
     /// progress to `workers`. Pixels that `kept` has are not traced again; new ones are kept there
     /// from time to time. If the work ends early, `all` has the totals of the finished pixels.
-    pub(super) fn few(
+    pub(super) fn trace_group(
         &self,
         pixels: &[[u32; 2]],
         numbers: &[usize],
@@ -268,13 +192,13 @@ impl Pixels {
         let mut keeper = kept.keeper();
         // Pixels that are traced but not kept yet.
         let mut new: Vec<usize> = Vec::new();
-        let together = (self.run() / self.paths).max(1) as usize;
+        let together = (self.source.run_length() / self.paths).max(1) as usize;
         for numbers in open.chunks(together) {
             let group: Vec<[u32; 2]> = numbers.iter().map(|&n| pixels[n]).collect();
-            let mut totals = vec![self.none(); group.len()];
+            let mut totals = vec![self.empty_totals(); group.len()];
             let mut first = 0;
             while first < self.paths {
-                let end = (first + self.run()).min(self.paths);
+                let end = (first + self.source.run_length()).min(self.paths);
                 self.trace(&group, first..end, &mut totals, workers)?;
                 report(workers, (end - first) * group.len() as u64);
                 first = end;
@@ -285,7 +209,7 @@ impl Pixels {
             new.extend(numbers);
             if keeper.is_due() {
                 let part = |n: usize| Some(self.whole(pixels[n], all[n].as_ref()?));
-                keeper.keep(new.drain(..).filter_map(part))?;
+                keeper.keep_parts(new.drain(..).filter_map(part))?;
             }
         }
         Ok(())
@@ -297,7 +221,7 @@ impl Pixels {
             pixel,
             number: 0,
             paths: self.paths,
-            totals: totals.words(),
+            totals: totals.encode(),
         }
     }
 
@@ -311,9 +235,9 @@ impl Pixels {
         most: u64,
     ) -> Option<(u64, Totals)> {
         let (paths, words) = kept.before(pixel, number)?;
-        let whole_runs = paths.is_multiple_of(self.run()) || paths == most;
+        let whole_runs = paths.is_multiple_of(self.source.run_length()) || paths == most;
         let totals = self
-            .none()
+            .empty_totals()
             .with_words(words, self.one_run())
             .filter(|_| whole_runs && paths <= most)?;
         Some((paths, totals))
@@ -332,7 +256,7 @@ impl Pixels {
         match &self.source {
             Source::Real(real) => {
                 real.trace_range(pixels, ids, |block| {
-                    self.take(&mut totals[block.pixel], &block);
+                    self.add_block(&mut totals[block.pixel], &block);
                 });
                 Ok(())
             }
@@ -362,7 +286,7 @@ impl Pixels {
     /// Traces the many paths of one pixel on all threads, and returns their totals. Reports every
     /// run of paths to `workers`. The totals of its parts are kept in `kept`, and kept ones are
     /// continued.
-    pub(super) fn many(
+    pub(super) fn trace_in_parts(
         &self,
         pixel: [u32; 2],
         workers: &Workers<'_>,
@@ -373,7 +297,7 @@ impl Pixels {
         let totals = parts.map(|n| {
             let ids = n * part..((n + 1) * part).min(self.paths);
             let before = self.before(kept, pixel, n, ids.end - ids.start);
-            let (paths, totals) = before.unwrap_or((0, self.none()));
+            let (paths, totals) = before.unwrap_or((0, self.empty_totals()));
             let mut totals = [totals];
             let mut first = ids.start + paths;
             let mut keeper = kept.keeper();
@@ -381,19 +305,19 @@ impl Pixels {
                 pixel,
                 number: n,
                 paths: first - ids.start,
-                totals: totals.words(),
+                totals: totals.encode(),
             };
             while first < ids.end {
-                let end = (first + self.run()).min(ids.end);
+                let end = (first + self.source.run_length()).min(ids.end);
                 if let Err(stop) = self.trace(&[pixel], first..end, &mut totals, workers) {
                     let traced = (first > ids.start).then(|| part_of(first, &totals[0]));
-                    keeper.keep(traced)?;
+                    keeper.keep_parts(traced)?;
                     return Err(stop);
                 }
                 report(workers, end - first);
                 first = end;
                 if first == ids.end || keeper.is_due() {
-                    keeper.keep([part_of(first, &totals[0])])?;
+                    keeper.keep_parts([part_of(first, &totals[0])])?;
                 }
             }
             let [totals] = totals;
@@ -401,14 +325,14 @@ impl Pixels {
         });
         // Totals are added in the order of path indices, whichever was finished first.
         let totals: Vec<Totals> = totals.collect::<Result<_, Stop>>()?;
-        let mut whole = self.none();
+        let mut whole = self.empty_totals();
         for later in &totals {
             whole.append(later);
         }
         Ok(whole)
     }
 
-    fn take(&self, totals: &mut Totals, block: &PathBlock<'_>) {
+    fn add_block(&self, totals: &mut Totals, block: &PathBlock<'_>) {
         for (channel, colours) in block.colours.into_iter().enumerate() {
             let limit = self.limit[channel];
             let inside = |colour: f64| colour >= 0.0 && colour <= limit;
@@ -473,12 +397,13 @@ impl Pixels {
         if let Some(one_run) = &counter.one_run {
             let estimator: &dyn AmplitudeEstimator = &*counter.estimators[0];
             let device = (estimator, counter.noise);
+            let source = (&self.source, self.seed);
             let segments = &totals.segments;
-            let (colour, estimate) = one_run.finish(self, device, pixel, segments, workers)?;
+            let (colour, estimate) = one_run.finish(source, device, pixel, segments, workers)?;
             finished.colour = colour;
             finished.queries = 0;
             if let Some(estimate) = estimate {
-                finished.take(0, &estimate, |amplitude| {
+                finished.add_estimate(0, &estimate, |amplitude| {
                     one_run.pixel_of_amplitude(amplitude)
                 });
             }
@@ -492,7 +417,7 @@ impl Pixels {
                 let estimate = self.estimate(counter, pixel, channel, totals)?;
                 let radiance =
                     |amplitude| counter.comparators[channel].pixel_of_amplitude(amplitude);
-                finished.take(channel, &estimate, radiance);
+                finished.add_estimate(channel, &estimate, radiance);
                 finished.colour[channel] = radiance(estimate.amplitude);
             }
         }
@@ -580,7 +505,7 @@ impl Pixels {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path_machines::Real;
+    use crate::path_machines::{OracleMachine, Real};
     use qrt_circuit::Operand;
     use qrt_core::oracle::Oracle;
     use qrt_scene::front::parse;
@@ -606,7 +531,7 @@ sampling: { path_bits: 5 }
     fn few(pixels: &Pixels) -> Vec<Totals> {
         let mut all = [None];
         let (workers, kept) = (Workers::default(), Parts::default());
-        let traced = pixels.few(&[[1, 0]], &[0], &mut all, &workers, &kept);
+        let traced = pixels.trace_group(&[[1, 0]], &[0], &mut all, &workers, &kept);
         traced.ok().unwrap();
         all.into_iter().flatten().collect()
     }
@@ -634,7 +559,7 @@ sampling: { path_bits: 5 }
                 })) => {}
                 other => panic!("{:?}", other.ok().map(|pixel| pixel.colour)),
             }
-            let parts = pixels.many([1, 0], &Workers::default(), &Parts::default());
+            let parts = pixels.trace_in_parts([1, 0], &Workers::default(), &Parts::default());
             let parts = parts.ok().unwrap();
             assert!(finish(&pixels, &parts).is_err());
         }
@@ -674,7 +599,7 @@ sampling: { path_bits: 5 }
         let (workers, kept, mut all) = (Workers::default(), Parts::default(), [None]);
         let traced = pixels
             .unwrap()
-            .few(&[[1, 0]], &[0], &mut all, &workers, &kept);
+            .trace_group(&[[1, 0]], &[0], &mut all, &workers, &kept);
         let Err(Stop::Failed(error)) = traced else {
             panic!("it was counted");
         };
@@ -693,7 +618,7 @@ sampling: { path_bits: 5 }
                 pixel: 0,
                 colours: [&colours; 3],
             };
-            pixels.take(&mut totals, &block);
+            pixels.add_block(&mut totals, &block);
             assert_eq!(totals.stray[0].0, 1);
             assert_eq!(totals.stray[0].1.to_bits(), colour.to_bits());
             assert!(finish(&pixels, &totals).is_err());

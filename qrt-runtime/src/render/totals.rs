@@ -21,17 +21,17 @@ pub(super) struct Totals {
 
 impl Totals {
     /// Encodes the totals, so that they can be continued later.
-    pub(super) fn words(&self) -> Vec<u64> {
+    pub(super) fn encode(&self) -> Vec<u64> {
         let mut words = vec![self.queries];
         for channel in 0..3 {
             let (paths, colour) = self.stray[channel];
-            words.extend(self.colour[channel].words());
+            words.extend(self.colour[channel].encode());
             words.extend([self.good[channel], paths, colour.to_bits()]);
             for (paths, sum) in self.octaves[channel].by_length() {
                 words.extend([paths, sum]);
             }
         }
-        self.segments.words(&mut words);
+        self.segments.append_words(&mut words);
         words
     }
 

@@ -55,7 +55,7 @@ pub(crate) struct Drawn {
 
 impl Draws<'_> {
     /// Draws the estimates of all pixels.
-    pub(crate) fn of(
+    pub(crate) fn draw(
         &self,
         pixels: &[[u32; 2]],
         good: &Countable<'_>,

@@ -54,7 +54,7 @@ impl Sum {
     pub(crate) const WORDS: usize = LANES + 2;
 
     /// Encodes the state of the sum, so that it can be continued later.
-    pub(crate) fn words(&self) -> [u64; Self::WORDS] {
+    pub(crate) fn encode(&self) -> [u64; Self::WORDS] {
         let mut words = [self.filled as u64; Self::WORDS];
         words[0] = self.total.to_bits();
         for (word, lane) in words[1..].iter_mut().zip(self.lanes) {

@@ -36,7 +36,7 @@ impl Search {
     /// Runs the rounds of one search for a marked state. They end when a marked state is measured;
     /// if all rounds fail, the search is over. `marks` and `distances` are the oracle's for
     /// [`Search::nearest`].
-    pub fn run(&mut self, rounds: &Rounds, marks: &[bool], distances: &[i64]) {
+    pub fn run_rounds(&mut self, rounds: &Rounds, marks: &[bool], distances: &[i64]) {
         let marked = marks.iter().filter(|&&mark| mark).count();
         for &count in rounds.counts() {
             let iterations = self.below(count);

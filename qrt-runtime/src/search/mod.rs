@@ -42,7 +42,7 @@
 //!     let below = |&number: &i64| best.is_none_or(|best| number < best.distance);
 //!     let mut marks: Vec<bool> = numbers.iter().map(below).collect();
 //!     marks.resize(1024, false);
-//!     search.run(&rounds, &marks, &numbers);
+//!     search.run_rounds(&rounds, &marks, &numbers);
 //! }
 //! let least = search.nearest().map(|nearest| nearest.distance);
 //! assert_eq!(least, numbers.iter().copied().min());

@@ -116,7 +116,7 @@ impl FoundHits {
                         continue;
                     }
                 }
-                search.run(rounds, marks, distances);
+                search.run_rounds(rounds, marks, distances);
             }
             first = false;
             open.retain(|&ray| !searches[ray].is_over());

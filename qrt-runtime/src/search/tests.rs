@@ -20,7 +20,7 @@ fn find(rounds: &Rounds, ranks: &[usize], guess: Option<usize>, stream: Stream) 
         for (place, mark) in marks.iter_mut().enumerate().take(ranks.len()) {
             *mark = best.is_none_or(|best| candidate(place) < best);
         }
-        search.run(rounds, &marks, &distances);
+        search.run_rounds(rounds, &marks, &distances);
     }
     let found = search
         .nearest()
@@ -159,7 +159,7 @@ fn a_search_for_nothing_gives_up_after_the_queries_that_are_stated() {
     let mut sum = 0;
     for run in 0..runs {
         let mut search = Search::new(Stream::of_path(9, 0, 0, 9, run));
-        search.run(&rounds, &[false; 256], &[0; 256]);
+        search.run_rounds(&rounds, &[false; 256], &[0; 256]);
         assert!(search.is_over() && search.nearest().is_none());
         sum += search.queries();
     }

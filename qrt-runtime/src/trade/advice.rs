@@ -1,6 +1,6 @@
 //! Advice on the next change: the parameter that reduces the error most for its price.
 
-use super::figures::TOTAL;
+use super::figure::TOTAL;
 use super::fronts::candidates;
 use super::setting::Setting;
 use super::table::Row;
@@ -42,7 +42,7 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
     }
     let others: Vec<Change<'_>> = candidates(trade)
         .into_iter()
-        .filter_map(|row| Change::of(own, row, error, price))
+        .filter_map(|row| Change::between(own, row, error, price))
         .collect();
     let free = others
         .iter()
@@ -103,7 +103,7 @@ struct Change<'a> {
 }
 
 impl<'a> Change<'a> {
-    fn of(own: &Row, row: &'a Row, error: f64, price: f64) -> Option<Self> {
+    fn between(own: &Row, row: &'a Row, error: f64, price: f64) -> Option<Self> {
         if matches!(row.setting.sweep, Sweep::Scene | Sweep::Model) {
             return None;
         }

@@ -92,7 +92,7 @@ impl<'a> Bench<'a> {
 
     /// Checks that the scene as it is has a circuit.
     pub(super) fn check(&mut self) -> Result<(), TradeError> {
-        let parameters = Setting::of(&self.parameters).parameters(&self.parameters);
+        let parameters = Setting::from_parameters(&self.parameters).parameters(&self.parameters);
         let scene = self
             .scene
             .with_parameters(parameters.clone())
@@ -205,7 +205,7 @@ impl<'a> Bench<'a> {
         if let Some((_, found)) = self.circuits.iter().find(|(of, _)| *of == key) {
             return Ok(Ok(found.clone()));
         }
-        let own = Setting::of(&self.parameters).parameters(&self.parameters);
+        let own = Setting::from_parameters(&self.parameters).parameters(&self.parameters);
         let most = match most_expensive_oracle(scene) {
             Ok(most) => most,
             // A row without a circuit is left out; a scene without one has no table.
@@ -292,7 +292,7 @@ impl<'a> Bench<'a> {
         } else {
             Countable::Whole(&traced.good)
         };
-        let found = draws.of(&self.pixels, &countable)?;
+        let found = draws.draw(&self.pixels, &countable)?;
         let exact = parameters.counting.estimator == Estimator::Exact;
         let queries: u64 = found.iter().flat_map(|drawn| drawn.queries).sum();
         let values = |(drawn, bound): (Drawn, &[f64; 3])| {

@@ -98,7 +98,9 @@ pub enum TradeError {
 }
 
 pub(super) fn first(problems: &[Problem]) -> String {
-    let first = problems.first().map(|problem| problem.words().message);
+    let first = problems
+        .first()
+        .map(|problem| problem.description().message);
     first.unwrap_or_default()
 }
 

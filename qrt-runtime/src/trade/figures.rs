@@ -1,40 +1,14 @@
 //! The plots of `qrt trade`.
 
+use super::Trade;
+use super::figure::{COMPARATORS, COUNTING, DEPTH, Figure, NAMES, PATHS, TOTAL, WIDTH, series};
 use super::fronts::fronts;
 use super::rivals;
 use super::setting::Sweep;
 use super::styles::{free, hollow, style};
 use super::table::Row;
-use super::{Band, Trade};
-use qrt_drawing::{Axis, Drawn, Plot, Point, Series};
+use qrt_drawing::{Axis, Drawn, Plot, Series};
 use qrt_scene::{Estimator, Sequence};
-
-/// A plot and its caption.
-pub(super) struct Figure {
-    /// The name of the plot's file, without the extension.
-    pub(super) name: &'static str,
-    pub(super) plot: Plot,
-    /// The caption.
-    pub(super) says: &'static str,
-}
-
-/// Indices of errors in a row.
-pub(super) const PATHS: usize = 0;
-pub(super) const COMPARATORS: usize = 1;
-pub(super) const WIDTH: usize = 2;
-pub(super) const COUNTING: usize = 3;
-pub(super) const DEPTH: usize = 4;
-pub(super) const TOTAL: usize = 5;
-
-/// Names of the errors on plots.
-pub(super) const NAMES: [&str; 6] = [
-    "paths, E_R",
-    "comparators, E_C",
-    "width, E_W",
-    "counting, E_T",
-    "depth, E_D",
-    "total",
-];
 
 /// All plots, in the page's order.
 pub(super) fn all(trade: &Trade) -> Vec<Figure> {
@@ -62,33 +36,6 @@ pub(super) fn all(trade: &Trade) -> Vec<Figure> {
     figures
 }
 
-fn point(x: f64, band: Band) -> Point {
-    Point {
-        x,
-        y: band.value,
-        low: band.low,
-        high: band.high,
-    }
-}
-
-/// A series of the error at index `error` of `rows`, over `x`.
-pub(super) fn series<'a>(
-    name: &str,
-    rows: impl Iterator<Item = &'a Row>,
-    x: impl Fn(&Row) -> f64,
-    error: usize,
-    drawn: Drawn,
-) -> Series {
-    let mut points: Vec<Point> = rows.map(|row| point(x(row), row.errors[error])).collect();
-    points.sort_by(|a, b| a.x.total_cmp(&b.x));
-    Series {
-        name: name.to_owned(),
-        points,
-        drawn,
-        style: style(name),
-    }
-}
-
 fn relative() -> Axis {
     Axis::log("RMSE / mean radiance")
 }
@@ -96,7 +43,7 @@ fn relative() -> Axis {
 /// Estimators of a sweep, in its order.
 pub(super) fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
     let mut found: Vec<Estimator> = Vec::new();
-    for row in trade.of(sweep) {
+    for row in trade.rows_of(sweep) {
         if !found.contains(&row.setting.estimator) {
             found.push(row.setting.estimator);
         }
@@ -107,7 +54,7 @@ pub(super) fn estimators(trade: &Trade, sweep: Sweep) -> Vec<Estimator> {
 fn split(trade: &Trade) -> Figure {
     let own = trade.scene().map(|row| row.setting.estimator);
     let rows = || {
-        let rows = trade.of(Sweep::Counting);
+        let rows = trade.rows_of(Sweep::Counting);
         rows.filter(move |row| Some(row.setting.estimator) == own)
     };
     let parts = [TOTAL, COUNTING, PATHS, COMPARATORS, WIDTH, DEPTH];
@@ -136,7 +83,7 @@ fn split(trade: &Trade) -> Figure {
 
 fn counting(trade: &Trade) -> Figure {
     let of = |estimator: Estimator| {
-        let rows = trade.of(Sweep::Counting);
+        let rows = trade.rows_of(Sweep::Counting);
         let rows = rows.filter(|row| row.setting.estimator == estimator);
         series(
             estimator.name(),
@@ -178,7 +125,7 @@ fn repetitions(trade: &Trade) -> Figure {
             (Sweep::Counting, format!("{name}larger"), filled),
             (Sweep::Repetitions, format!("{name}again"), hollow(filled)),
         ] {
-            let rows = trade.of(sweep);
+            let rows = trade.rows_of(sweep);
             let rows = rows.filter(|row| row.setting.estimator == estimator);
             let found = series(&name, rows, |row| row.queries, COUNTING, Drawn::Fit);
             let style = free(style, &all);
@@ -200,7 +147,7 @@ fn repetitions(trade: &Trade) -> Figure {
 
 fn paths(trade: &Trade) -> Figure {
     let of = |sequence: Sequence| {
-        let rows = trade.of(Sweep::Paths);
+        let rows = trade.rows_of(Sweep::Paths);
         let rows = rows.filter(|row| row.setting.sequence == sequence);
         let bits = |row: &Row| f64::from(row.setting.path_bits);
         series(sequence.name(), rows, bits, PATHS, Drawn::Fit)
@@ -220,7 +167,7 @@ fn paths(trade: &Trade) -> Figure {
 
 fn comparators(trade: &Trade) -> Figure {
     let bits = |row: &Row| f64::from(row.setting.comparator_bits);
-    let rows = trade.of(Sweep::Comparator);
+    let rows = trade.rows_of(Sweep::Comparator);
     Figure {
         name: "comparators",
         plot: Plot {
@@ -242,7 +189,15 @@ fn comparators(trade: &Trade) -> Figure {
 
 fn fraction(trade: &Trade) -> Figure {
     let bits = |row: &Row| f64::from(row.setting.fraction);
-    let of = |(error, drawn)| series(NAMES[error], trade.of(Sweep::Fraction), bits, error, drawn);
+    let of = |(error, drawn)| {
+        series(
+            NAMES[error],
+            trade.rows_of(Sweep::Fraction),
+            bits,
+            error,
+            drawn,
+        )
+    };
     Figure {
         name: "fraction",
         plot: Plot {
@@ -260,9 +215,9 @@ fn fraction(trade: &Trade) -> Figure {
 
 fn price(trade: &Trade) -> Figure {
     let of = |name: &str, y: fn(&Row) -> u64| {
-        let rows = trade.of(Sweep::Fraction);
+        let rows = trade.rows_of(Sweep::Fraction);
         let points = rows.map(|row| (f64::from(row.setting.fraction), y(row) as f64));
-        Series::of(name, points, Drawn::Joined)
+        Series::new(name, points, Drawn::Joined)
     };
     Figure {
         name: "price",
@@ -281,7 +236,7 @@ fn price(trade: &Trade) -> Figure {
 
 fn depth(trade: &Trade) -> Figure {
     let rays = |row: &Row| row.setting.depths as f64;
-    let rows = trade.of(Sweep::Depth);
+    let rows = trade.rows_of(Sweep::Depth);
     Figure {
         name: "depth",
         plot: Plot {

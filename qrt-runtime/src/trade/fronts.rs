@@ -1,6 +1,6 @@
 //! The Pareto fronts of the total error against each price.
 
-use super::figures::{Figure, TOTAL, series};
+use super::figure::{Figure, TOTAL, series};
 use super::setting::Sweep;
 use super::styles::style;
 use super::table::Row;
@@ -62,7 +62,7 @@ pub(super) fn fronts(trade: &Trade) -> impl Iterator<Item = Figure> {
                 series: vec![
                     Series {
                         style: style("all settings"),
-                        ..Series::of("all settings", others, Drawn::Points)
+                        ..Series::new("all settings", others, Drawn::Points)
                     },
                     series("the front", best.into_iter(), price, TOTAL, Drawn::Steps),
                 ],

@@ -58,6 +58,7 @@ mod advice;
 mod band;
 mod bench;
 mod error;
+mod figure;
 mod figures;
 mod fronts;
 mod limits;
@@ -140,7 +141,7 @@ impl Trade {
     }
 
     /// The rows of `sweep`.
-    pub fn of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
+    pub fn rows_of(&self, sweep: Sweep) -> impl Iterator<Item = &Row> {
         self.rows
             .iter()
             .filter(move |row| row.setting.sweep == sweep)
@@ -168,7 +169,7 @@ pub fn trade(
         |source: std::io::Error| TradeError::File { path, source }
     };
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
-    let measured = (options.workers).run(|| measure(scene, folder, options))??;
+    let measured = (options.workers).on_threads(|| measure(scene, folder, options))??;
     if options.portion != Portion::WHOLE {
         return Ok(measured);
     }
@@ -180,8 +181,8 @@ pub fn trade(
     for figure in &figures {
         write(&format!("{}.svg", figure.name), &figure.plot.draw().svg())?;
     }
-    let preview = || preview::Preview::of(scene, options);
-    let preview = (options.workers).run(preview)??;
+    let preview = || preview::Preview::render(scene, options);
+    let preview = (options.workers).on_threads(preview)??;
     write(
         "index.html",
         &page::html(&measured, preview.as_ref(), &figures),

@@ -1,6 +1,6 @@
 //! `index.html`: tables and plots in one self-contained file.
 
-use super::figures::{Figure, NAMES};
+use super::figure::{Figure, NAMES};
 use super::fronts::{PRICES, candidates, front};
 use super::preview::Preview;
 use super::summary::differs;
@@ -105,7 +105,7 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
     }
     out.push_str("<h2>All settings</h2>\n");
     for sweep in Sweep::ALL {
-        let rows: Vec<&Row> = trade.of(sweep).collect();
+        let rows: Vec<&Row> = trade.rows_of(sweep).collect();
         let _ = writeln!(
             out,
             "<details><summary>{} ({})</summary>",

@@ -30,7 +30,7 @@ impl Preview {
     /// Renders the exact mean of some of the film's pixels, over few paths that sample lamps.
     ///
     /// The result is `None` if no PNG can be made.
-    pub(super) fn of(
+    pub(super) fn render(
         scene: &ValidScene,
         options: &Options<'_>,
     ) -> Result<Option<Self>, TradeError> {

@@ -4,7 +4,7 @@
 
 use super::bench::{Bench, picked};
 use super::error::TradeError;
-use super::figures::{COUNTING, Figure, TOTAL, series};
+use super::figure::{COUNTING, Figure, TOTAL, series};
 use super::setting::{FINE, Setting, Sweep};
 use super::styles::free;
 use super::sweep::most_paths;
@@ -69,7 +69,7 @@ impl Bench<'_> {
         let all = 0..self.pixels.len();
         if setting.sweep.leaves_lamps_out() {
             let classes = PixelClasses::new(&self.lit_net(setting.depths, 0)?);
-            let dim = |&at: &usize| classes.of(self.pixels[at]) == PixelClass::MeetsNoLamp;
+            let dim = |&at: &usize| classes.class(self.pixels[at]) == PixelClass::MeetsNoLamp;
             let kept: Vec<usize> = all.clone().filter(dim).collect();
             if sample::radiance(&picked(self.reference(setting.depths)?, &kept)) > 0.0 {
                 return Ok(kept);
@@ -94,7 +94,8 @@ impl Bench<'_> {
             let by_path = squares.into_iter().map(|s| s / paths as f64).collect();
             (by_path, RANDOM)
         } else {
-            let most = most_paths(&Setting::of(&self.parameters)).max(setting.path_bits);
+            let most =
+                most_paths(&Setting::from_parameters(&self.parameters)).max(setting.path_bits);
             let bits = most.min(setting.path_bits + NETS.ilog2());
             let real = Real::new(&self.lit_net(setting.depths, bits)?, self.seed)?;
             let squares = squares_of(&real, &pixels, &truth, paths, &self.workers)?;
@@ -256,7 +257,7 @@ fn slope(points: &[Point]) -> Option<f64> {
     let logarithms = points
         .iter()
         .map(|(n, e)| (libm::log10(*n), libm::log10(*e)));
-    Some(Fit::of(logarithms.filter(|(_, e)| e.is_finite()))?.slope)
+    Some(Fit::from_points(logarithms.filter(|(_, e)| e.is_finite()))?.slope)
 }
 
 /// One line for each rival: its comparison with counting.
@@ -265,9 +266,9 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
         rows.map(|row| (row.queries, row.errors[error].value))
             .collect()
     };
-    let ours = points(&mut trade.of(Sweep::BesideRivals), COUNTING);
+    let ours = points(&mut trade.rows_of(Sweep::BesideRivals), COUNTING);
     let line = |(sweep, name): (Sweep, &str)| {
-        let theirs = points(&mut trade.of(sweep), TOTAL);
+        let theirs = points(&mut trade.rows_of(sweep), TOTAL);
         let slope = slope(&theirs).map_or(String::new(), |slope| format!(" (slope {slope:.2})"));
         sentence(&format!("{name}{slope}"), verdict(&ours, &theirs))
     };
@@ -276,7 +277,7 @@ pub(super) fn sentences(trade: &Trade) -> Vec<String> {
 
 /// The plot of counting and both rivals: errors over queries or paths.
 pub(super) fn figure(trade: &Trade) -> Figure {
-    let mut ours = trade.of(Sweep::BesideRivals).peekable();
+    let mut ours = trade.rows_of(Sweep::BesideRivals).peekable();
     let name = ours.peek().map(|row| row.setting.estimator);
     let name = name.map_or("counting", Estimator::name);
     let price = |row: &Row| row.queries;
@@ -289,7 +290,7 @@ pub(super) fn figure(trade: &Trade) -> Figure {
         } else {
             name
         };
-        series(name, trade.of(sweep), price, TOTAL, Drawn::Fit)
+        series(name, trade.rows_of(sweep), price, TOTAL, Drawn::Fit)
     });
     // `monte-carlo` has the style of random paths, but is another series.
     ours.style = ours.style.map(|style| free(style, &rivals));

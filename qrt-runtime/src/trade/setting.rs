@@ -102,7 +102,7 @@ pub(super) const KEY: [&str; 13] = [
 
 impl Setting {
     /// The scene's own parameters, on the fixed machine: the circuit's own numbers.
-    pub(super) fn of(parameters: &Parameters) -> Self {
+    pub(super) fn from_parameters(parameters: &Parameters) -> Self {
         Self {
             sweep: Sweep::Scene,
             model: Model::Fixed,

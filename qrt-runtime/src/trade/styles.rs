@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_style_that_is_taken_gives_way() {
-        let taken = |style| Series::of("", [], Drawn::Points).styled(style);
+        let taken = |style| Series::new("", [], Drawn::Points).styled(style);
         assert_eq!(free(3, &[]), 3);
         assert_eq!(free(1, &[taken(1), taken(0)]), 2);
         assert_eq!(hollow(hollow(4)), 4);

@@ -1,6 +1,7 @@
 //! A summary of the measurements, in a few lines.
 
-use super::figures::{COUNTING, TOTAL, estimators};
+use super::figure::{COUNTING, TOTAL};
+use super::figures::estimators;
 use super::fronts::{PRICES, candidates, front};
 use super::setting::Setting;
 use super::table::ERRORS;
@@ -75,12 +76,12 @@ pub(super) fn text(trade: &Trade) -> String {
 /// For each estimator: the slope of its error over its queries.
 fn slopes(trade: &Trade) -> Vec<String> {
     let slope = |name| {
-        let rows = trade.of(Sweep::Counting);
+        let rows = trade.rows_of(Sweep::Counting);
         let points = rows.filter(|row| row.setting.estimator == name).map(|row| {
             let error = row.errors[COUNTING].value;
             (libm::log10(row.queries), libm::log10(error))
         });
-        let fit = Fit::of(points.filter(|(x, y)| x.is_finite() && y.is_finite()))?;
+        let fit = Fit::from_points(points.filter(|(x, y)| x.is_finite() && y.is_finite()))?;
         Some(format!("{name} {:.2}", fit.slope))
     };
     let names = estimators(trade, Sweep::Counting).into_iter();

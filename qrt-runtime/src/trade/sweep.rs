@@ -14,7 +14,7 @@ const HALVED: u32 = 4;
 
 /// The rows, in their order. `quick` leaves out every other value, and those that take longest.
 pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
-    let scene = Setting::of(parameters);
+    let scene = Setting::from_parameters(parameters);
     let step = if quick { 2 } else { 1 };
     let of = |sweep| Setting { sweep, ..scene };
     let mut rows = vec![scene];

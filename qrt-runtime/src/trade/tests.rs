@@ -98,7 +98,10 @@ fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     let measured = trade(&scene(LIT), &folder.path(""), &quick()).unwrap();
     assert!(measured.left_out.is_empty());
     let error = |sweep: Sweep, at: usize| -> Vec<f64> {
-        measured.of(sweep).map(|row| row.errors[at].value).collect()
+        measured
+            .rows_of(sweep)
+            .map(|row| row.errors[at].value)
+            .collect()
     };
     let falls = |errors: &[f64]| errors[0] > 4.0 * errors[errors.len() - 1];
     let same = |errors: &[f64]| errors.windows(2).all(|pair| pair[0] == pair[1]);
@@ -119,11 +122,11 @@ fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     for other in [paths, comparators, width, depth] {
         assert!(same(&error(Sweep::Counting, other)), "{other}");
     }
-    let sine = measured.of(Sweep::Counting);
+    let sine = measured.rows_of(Sweep::Counting);
     let sine = sine.filter(|row| row.setting.estimator == Estimator::Sine);
     let sine: Vec<f64> = sine.map(|row| row.errors[counting].value).collect();
     assert!(falls(&sine), "{sine:?}");
-    let net = measured.of(Sweep::Paths);
+    let net = measured.rows_of(Sweep::Paths);
     let net = net.filter(|row| row.setting.sequence == Sequence::DigitalNet);
     let net: Vec<f64> = net.map(|row| row.errors[paths].value).collect();
     assert!(falls(&net), "{net:?}");
@@ -134,7 +137,7 @@ fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     };
     assert!(real == 0.0 && fixed > 0.0 && fixed == gates);
     // Depths are the scene's two and two more.
-    assert_eq!(measured.of(Sweep::Depth).count(), 4);
+    assert_eq!(measured.rows_of(Sweep::Depth).count(), 4);
 }
 
 #[test]
@@ -404,7 +407,7 @@ fn the_advice_is_a_change_that_was_measured() {
         .map(|set| set.split([' ', ',']).next().unwrap().to_owned())
         .collect();
     let changed = parse(LIT, "lit.yaml", &sets, "".as_ref()).unwrap();
-    let changed = Setting::of(&changed.valid.parameters());
+    let changed = Setting::from_parameters(&changed.valid.parameters());
     let row = measured.rows.iter().find(|row| {
         let sweep = row.setting.sweep;
         row.setting == Setting { sweep, ..changed }

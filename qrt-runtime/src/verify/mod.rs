@@ -155,7 +155,7 @@ pub fn verify(scene: &ValidScene, options: &Options<'_>) -> Result<Report, Verif
     // Each pixel runs on the circuit of its class.
     let mut whole: Option<Report> = None;
     for &class in classes.present() {
-        let mine = |pixel: &[u32; 2]| classes.of(*pixel) == class;
+        let mine = |pixel: &[u32; 2]| classes.class(*pixel) == class;
         let pixels: Vec<[u32; 2]> = chosen.iter().copied().filter(mine).collect();
         if pixels.is_empty() {
             continue;
@@ -240,7 +240,7 @@ fn verify_pixels(
         ..Report::default()
     };
     let fixed = OracleMachine::fixed(oracle.clone(), options.seed, true);
-    options.workers.run(|| {
+    options.workers.on_threads(|| {
         let gates = OracleMachine::of_parts(oracle.clone(), parts, options.seed, true);
         match gates {
             Ok(gates) => {
@@ -313,7 +313,7 @@ impl Report {
                 let start = number % runs * RUN;
                 let ids = start..(start + RUN).min(of_pixel);
                 let length = ids.end - ids.start;
-                let found = trio.run(self.pixels[(number / runs) as usize], ids);
+                let found = trio.compare_paths(self.pixels[(number / runs) as usize], ids);
                 workers.report(Progress::Finished(length));
                 found
             });
@@ -336,7 +336,7 @@ impl Report {
                     }
                 }
                 if number % runs + 1 == runs {
-                    self.take(std::mem::take(&mut pixel), of_pixel);
+                    self.add_pixel(std::mem::take(&mut pixel), of_pixel);
                 }
             }
         }
@@ -352,7 +352,7 @@ impl Report {
     }
 
     /// Adds a finished pixel with `paths` paths.
-    fn take(&mut self, found: Found, paths: u64) {
+    fn add_pixel(&mut self, found: Found, paths: u64) {
         for c in 0..3 {
             let real = found.real[c] / paths as f64;
             let difference = found.fixed[c] / paths as f64 - real;

@@ -52,7 +52,11 @@ impl Trio<'_> {
     ///
     /// # Errors
     /// A defect, and the model that shows it.
-    pub(super) fn run(&self, pixel: [u32; 2], ids: Range<u64>) -> Result<Found, (Model, Defect)> {
+    pub(super) fn compare_paths(
+        &self,
+        pixel: [u32; 2],
+        ids: Range<u64>,
+    ) -> Result<Found, (Model, Defect)> {
         let mut real: [Vec<f64>; 3] = Default::default();
         self.real.trace_range(&[pixel], ids.clone(), |block| {
             for (all, colours) in real.iter_mut().zip(block.colours) {

@@ -35,7 +35,7 @@ impl Expr {
             let result = match here {
                 Node::Variable(v) if v == variable => Some(rules.arena.number(1.0)),
                 _ if slope.iter().all(Option::is_none) => None,
-                _ => rules.of(id, here, slope),
+                _ => rules.derivative(id, here, slope),
             };
             slopes.push(result);
         }
@@ -53,7 +53,7 @@ struct Rules {
 
 impl Rules {
     /// Returns the derivative of `node`, whose index is `id`, from those of its operands.
-    fn of(&mut self, id: Id, node: Node, [da, db, dx, dy]: [Option<Id>; 4]) -> Option<Id> {
+    fn derivative(&mut self, id: Id, node: Node, [da, db, dx, dy]: [Option<Id>; 4]) -> Option<Id> {
         match node {
             Node::Number(_) | Node::Variable(_) | Node::Powi(_, 0) => None,
             Node::Neg(_) => self.neg(da),

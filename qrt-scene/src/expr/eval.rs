@@ -76,7 +76,7 @@ impl Expr {
         let mut sets: Vec<VariableSet> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let own = match *node {
-                Node::Variable(variable) => VariableSet::of(variable),
+                Node::Variable(variable) => VariableSet::from_variable(variable),
                 _ => VariableSet::EMPTY,
             };
             sets.push(

@@ -101,12 +101,12 @@ impl VariableSet {
     pub const SQUARE: Self = Self(1 << Variable::U as u8 | 1 << Variable::V as u8);
 
     /// The set that holds `variable` alone.
-    pub fn of(variable: Variable) -> Self {
+    pub fn from_variable(variable: Variable) -> Self {
         Self(1 << variable as u8)
     }
     /// True if the set holds `variable`.
     pub fn contains(self, variable: Variable) -> bool {
-        self.0 & Self::of(variable).0 != 0
+        self.0 & Self::from_variable(variable).0 != 0
     }
     /// The variables that are in this set, in `other` or in both.
     pub fn union(self, other: Self) -> Self {

@@ -22,8 +22,8 @@ impl Expr {
     /// ```
     /// use qrt_scene::expr::{Expr, Variable};
     /// let problems = Expr::parse("2*cosi", &Variable::ALL).unwrap_err();
-    /// assert_eq!(problems[0].words().message, "unknown name `cosi`");
-    /// assert_eq!(problems[0].words().help.as_deref(), Some("did you mean `cos_i`?"));
+    /// assert_eq!(problems[0].description().message, "unknown name `cosi`");
+    /// assert_eq!(problems[0].description().help.as_deref(), Some("did you mean `cos_i`?"));
     /// assert_eq!(problems[0].within, Some(2..6));
     /// ```
     pub fn parse(text: &str, allowed: &[Variable]) -> Result<Self, Vec<Problem>> {

@@ -61,8 +61,8 @@ fn equal_parts_are_one_node() {
 fn dependence_is_known_of_every_node() {
     let e = read("sqrt(u)*cos(2*pi*v)*cos_o");
     let sets = e.node_variables();
-    assert!(sets.contains(&VariableSet::of(Variable::U)));
-    assert!(sets.contains(&VariableSet::of(Variable::V)));
+    assert!(sets.contains(&VariableSet::from_variable(Variable::U)));
+    assert!(sets.contains(&VariableSet::from_variable(Variable::V)));
     assert!(sets.contains(&VariableSet::SQUARE));
     let all = e.variables(e.root());
     assert!(all.contains(Variable::CosO) && !all.contains(Variable::CosI));
@@ -73,7 +73,7 @@ fn dependence_is_known_of_every_node() {
 fn wrong(text: &str) -> (&'static str, std::ops::Range<usize>, String, String) {
     let mut problems = Expr::parse(text, &Variable::SQUARE).expect_err(text);
     let p = problems.remove(0);
-    let words = p.words();
+    let words = p.description();
     (
         words.code,
         p.within.expect("a place"),

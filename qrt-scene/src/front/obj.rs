@@ -61,7 +61,7 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
         read.entry(path.to_owned()).or_insert_with(bytes).clone()
     };
     let mut meshes = Meshes::of_most(files.faces_allowed());
-    let mut faces = Faces::of(files.faces_allowed());
+    let mut faces = Faces::new(files.faces_allowed());
     for (name, kinds) in wanted {
         let path = files.path(name);
         let bytes = bytes_of(files, &path, false).and_then(counted);
@@ -104,7 +104,7 @@ pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
         path,
         &bytes,
         wants_materials,
-        Faces::of(MOST_FACES),
+        Faces::new(MOST_FACES),
         &mut library,
     )
 }
@@ -117,7 +117,7 @@ struct Faces {
 }
 
 impl Faces {
-    fn of(most: usize) -> Self {
+    fn new(most: usize) -> Self {
         Self { most, left: most }
     }
 }
@@ -274,7 +274,7 @@ fn split(statement: &str) -> Result<(&str, &str), MeshFile> {
 }
 
 /// The words of a statement up to a comment.
-fn words(text: &str) -> impl Iterator<Item = &str> {
+fn tokens(text: &str) -> impl Iterator<Item = &str> {
     text.split_whitespace()
         .take_while(|word| !word.starts_with('#'))
 }
@@ -289,7 +289,7 @@ fn numbers(text: &str, most: usize, is_library: bool) -> Result<Vec<f64>, MeshFi
             Err(_) => Err(MeshFile::NotANumber { word, is_library }),
         }
     };
-    words(text).take(most).map(number).collect()
+    tokens(text).take(most).map(number).collect()
 }
 
 /// Returns the name after `keyword`, which must not be empty and must be UTF-8.

@@ -52,7 +52,7 @@ pub fn read(
         problems,
         merged: false,
     };
-    builder.run(Parser::new_from_str(text)).ok()?;
+    builder.build(Parser::new_from_str(text)).ok()?;
     let Builder { root, merged, .. } = builder;
     let root = root.filter(|node| node.value != Value::Null);
     if root.is_none() && problems.count() == known {
@@ -89,7 +89,7 @@ enum Refusal {
 }
 
 impl Refusal {
-    fn of(words: &str) -> Self {
+    fn from_message(words: &str) -> Self {
         match words {
             "while parsing node, found unknown anchor" => Self::UnknownAlias,
             "recursion limit exceeded" => Self::TooDeep,
@@ -149,7 +149,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn run(&mut self, mut parser: Parser<'a, saphyr_parser::StrInput<'a>>) -> Result<(), Stop> {
+    fn build(&mut self, mut parser: Parser<'a, saphyr_parser::StrInput<'a>>) -> Result<(), Stop> {
         while let Some(event) = parser.next_event() {
             match event {
                 Ok((event, span)) => {
@@ -218,7 +218,7 @@ impl<'a> Builder<'a> {
     }
 
     fn syntax_error(&mut self, why: &str, at: usize) -> Result<(), Stop> {
-        let refusal = Refusal::of(why);
+        let refusal = Refusal::from_message(why);
         let why = why.to_owned();
         let tab = self.locator.indented_by_tab(at);
         let (at, what) = match refusal {
@@ -430,7 +430,11 @@ mod tests {
         ] {
             let refused = Parser::new_from_str(text).find_map(Result::err);
             let words = refused.as_ref().map(saphyr_parser::ScanError::info);
-            assert_eq!(words.map(Refusal::of), Some(expected), "{words:?}");
+            assert_eq!(
+                words.map(Refusal::from_message),
+                Some(expected),
+                "{words:?}"
+            );
         }
     }
 }

@@ -36,8 +36,8 @@ impl Reached {
 ///
 /// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
 pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3]) -> Reached {
-    let lamp: Vec<Triangle> = Triangle::of(lamp).collect();
-    let faces: Vec<Triangle> = surface.flat_map(Triangle::of).collect();
+    let lamp: Vec<Triangle> = Triangle::fan(lamp).collect();
+    let faces: Vec<Triangle> = surface.flat_map(Triangle::fan).collect();
     let pairs = || {
         let of = |face: &Triangle| lamp.iter().map(|lamp| (*face, *lamp)).collect::<Vec<_>>();
         faces.iter().flat_map(of)
@@ -51,8 +51,8 @@ pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3])
 /// Returns the bound of `q / r^4` for one polygon, but looser: it examines at most `most_pairs`
 /// pairs of parts.
 pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
-    let of = |face: Triangle| Triangle::of(lamp).map(move |lamp| (face, lamp));
-    supremum(Triangle::of(face).flat_map(of), form, most_pairs)
+    let of = |face: Triangle| Triangle::fan(lamp).map(move |lamp| (face, lamp));
+    supremum(Triangle::fan(face).flat_map(of), form, most_pairs)
 }
 
 /// A triangle of a surface or a lamp.
@@ -68,7 +68,7 @@ struct Triangle {
 }
 
 impl Triangle {
-    fn of(polygon: &[DVec3]) -> impl Iterator<Item = Self> + '_ {
+    fn fan(polygon: &[DVec3]) -> impl Iterator<Item = Self> + '_ {
         (2..polygon.len()).map(|k| Self::new([polygon[0], polygon[k - 1], polygon[k]], None))
     }
 

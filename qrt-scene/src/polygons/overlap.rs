@@ -42,7 +42,7 @@ struct Node {
 struct Rectangle([[f64; 2]; 2]);
 
 impl Rectangle {
-    fn of(axis: usize, outline: &[DVec3]) -> Self {
+    fn around(axis: usize, outline: &[DVec3]) -> Self {
         let bound = |from: f64, pick: fn(f64, f64) -> f64| {
             [1, 2].map(|k| {
                 let along = outline.iter().map(|corner| corner[(axis + k) % 3]);
@@ -85,7 +85,7 @@ impl<'a> Outlines<'a> {
             polygons,
             left: 0,
         };
-        let around = |number: usize| (Rectangle::of(axis, all.polygons[number]), number);
+        let around = |number: usize| (Rectangle::around(axis, all.polygons[number]), number);
         let mut leaves: Vec<(Rectangle, usize)> = (0..all.polygons.len()).map(around).collect();
         all.grow(&mut leaves);
         all
@@ -149,7 +149,7 @@ impl<'a> Outlines<'a> {
     /// may lie over each other without overlapping.
     pub fn first_overlapped(&mut self, outline: &[DVec3]) -> Option<usize> {
         let root = self.nodes.len() - 1;
-        let rectangle = Rectangle::of(self.axis, outline);
+        let rectangle = Rectangle::around(self.axis, outline);
         self.left += ASKED;
         let mut first = usize::MAX;
         let mut pending = vec![root];

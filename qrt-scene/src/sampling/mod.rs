@@ -98,7 +98,7 @@ impl Coordinate {
 
     /// The second coordinate of the ray of this `depth`.
     pub const fn v(depth: usize) -> Self {
-        Self::u(depth).of(Axis::V)
+        Self::u(depth).with_axis(Axis::V)
     }
 
     /// The first coordinate of the point on a lamp to which the start of the ray of this `depth` is
@@ -115,10 +115,10 @@ impl Coordinate {
     /// The second coordinate of the point on a lamp to which the start of the ray of this `depth`
     /// is connected.
     pub const fn light_v(depth: usize) -> Self {
-        Self::light_u(depth).of(Axis::V)
+        Self::light_u(depth).with_axis(Axis::V)
     }
 
-    const fn of(self, axis: Axis) -> Self {
+    const fn with_axis(self, axis: Axis) -> Self {
         Self { axis, ..self }
     }
 
@@ -239,7 +239,7 @@ impl PathPoints {
     /// # Panics
     /// If the scene does not sample `coordinate`.
     pub fn bits(&self, coordinate: Coordinate) -> u32 {
-        self.of(coordinate).0
+        self.bits_and_map(coordinate).0
     }
 
     /// The bits of the sample index that bit `id_bit` of the path index flips.
@@ -247,7 +247,7 @@ impl PathPoints {
     /// # Panics
     /// If the scene does not sample `coordinate`.
     pub fn column(&self, coordinate: Coordinate, id_bit: u32) -> u32 {
-        self.of(coordinate).1.column(id_bit)
+        self.bits_and_map(coordinate).1.column(id_bit)
     }
 
     /// The shift of a coordinate in pixel (`x` from the left, `y` from the top): [`pixel_shift`]
@@ -273,7 +273,7 @@ impl PathPoints {
     /// # Panics
     /// If the scene does not sample `coordinate`.
     pub fn index(&self, coordinate: Coordinate, id: u64, shift: u64) -> u32 {
-        let (bits, map) = self.of(coordinate);
+        let (bits, map) = self.bits_and_map(coordinate);
         map.index(id) ^ net::top(shift, *bits) as u32
     }
 
@@ -283,11 +283,11 @@ impl PathPoints {
     /// # Panics
     /// If the scene does not sample `coordinate`.
     pub fn indices(&self, coordinate: Coordinate, first_id: u64, shift: u64, out: &mut [u32]) {
-        let (bits, map) = self.of(coordinate);
+        let (bits, map) = self.bits_and_map(coordinate);
         map.indices(first_id, net::top(shift, *bits) as u32, out);
     }
 
-    fn of(&self, coordinate: Coordinate) -> &(u32, LinearMap) {
+    fn bits_and_map(&self, coordinate: Coordinate) -> &(u32, LinearMap) {
         &self.dimensions[self.dimension(coordinate)]
     }
 }
@@ -344,7 +344,7 @@ impl SamplingError {
 impl fmt::Display for SamplingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Directly, not by way of all problems, whose words a caller may not need.
-        self.problem().words().fmt(f)
+        self.problem().description().fmt(f)
     }
 }
 

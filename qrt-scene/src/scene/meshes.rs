@@ -129,7 +129,7 @@ impl fmt::Display for ObjError {
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
-        let words = self.what.words();
+        let words = self.what.description();
         write!(f, ": {} ({})", words.message, words.code)
     }
 }

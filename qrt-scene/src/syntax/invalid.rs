@@ -63,7 +63,7 @@ impl fmt::Display for InvalidScene {
             if place > 0 {
                 f.write_str("\n")?;
             }
-            let words = problem.words();
+            let words = problem.description();
             write!(f, "error[{}]", words.code)?;
             match &problem.at {
                 At::Path(path) if !path.0.is_empty() => write!(f, " at {path}")?,

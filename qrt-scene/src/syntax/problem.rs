@@ -77,13 +77,13 @@ impl Problem {
     }
 
     /// Returns the problem in words, for the author of a scene's text.
-    pub fn words(&self) -> Words {
-        self.what.words()
+    pub fn description(&self) -> Words {
+        self.what.description()
     }
 
     /// The problem's stable code: `QRT0101`.
     pub fn code(&self) -> &'static str {
-        self.words().code
+        self.description().code
     }
 
     /// Prefixes the problem's paths with `path`.

@@ -163,7 +163,9 @@ impl Report {
     pub fn problems(&self) -> impl Iterator<Item = Reported<'_>> {
         let first = self.sources.first().map_or("", |source| &source.name);
         let sources = self.sources.iter();
-        let lines: Vec<Lines<'_>> = sources.map(|source| Lines::of(&source.text)).collect();
+        let lines: Vec<Lines<'_>> = sources
+            .map(|source| Lines::from_text(&source.text))
+            .collect();
         self.problems.iter().map(move |told| {
             let place = told.span.and_then(|span| {
                 let source = self.sources.get(span.source as usize)?;
@@ -203,7 +205,7 @@ impl Report {
         let lines: Vec<_> = self
             .sources
             .iter()
-            .map(|source| Lines::of(&source.text))
+            .map(|source| Lines::from_text(&source.text))
             .collect();
         for told in &self.problems {
             out.push_str(&self.render_one(&renderer, &lines, told));
@@ -316,7 +318,7 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn of(text: &'a str) -> Self {
+    fn from_text(text: &'a str) -> Self {
         let starts = std::iter::once(0).chain(line_starts(text.as_bytes()));
         Self {
             text,
@@ -419,7 +421,7 @@ fn tell(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Told {
         }
     };
     Told {
-        words: problem.words(),
+        words: problem.description(),
         span: span(&problem.at),
         also: problem.also.as_ref().and_then(span),
     }

@@ -25,6 +25,7 @@ mod reciprocity;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod undefined;
 
 /// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///

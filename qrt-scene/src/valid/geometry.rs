@@ -184,7 +184,7 @@ impl<'a> Build<'a> {
             }
             return;
         }
-        let transform = Transform::of(mesh);
+        let transform = Transform::from_mesh(mesh);
         let first = self.own_materials.get(mesh.obj.as_str()).copied();
         let is_new = first.is_none() && named.is_none();
         let first = first.unwrap_or(self.surfaces.len() as u32);
@@ -334,7 +334,7 @@ struct Transform {
 }
 
 impl Transform {
-    fn of(mesh: &Mesh) -> Self {
+    fn from_mesh(mesh: &Mesh) -> Self {
         let [x, y, z] = mesh.rotate.to_array().map(sin_cos_degrees);
         let turn = |v: DVec3| {
             let v = DVec3::new(v.x, x.1 * v.y - x.0 * v.z, x.0 * v.y + x.1 * v.z);

@@ -290,7 +290,7 @@ pub(crate) fn check(
     };
     glass::check(&valid, &mut problems);
     if problems.count() == 0 {
-        let found = notes::of(&valid);
+        let found = notes::warnings(&valid);
         valid.warnings.extend(found);
     }
     lights::check(&mut valid, &mut problems);

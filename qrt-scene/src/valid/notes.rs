@@ -24,7 +24,7 @@ const MOST_UNUSED: usize = 8;
 const MOST_COMPARED: usize = 1 << 24;
 
 /// Warnings of a scene without errors.
-pub(super) fn of(valid: &ValidScene) -> Vec<Problem> {
+pub(super) fn warnings(valid: &ValidScene) -> Vec<Problem> {
     let mut found: Vec<Problem> = unused_materials(valid).collect();
     found.extend(unlit(valid));
     found.extend(opposite_lamps(valid));
@@ -76,7 +76,7 @@ fn unlit(valid: &ValidScene) -> Option<Problem> {
     let around = corners_around(&receivers);
     let mut left = MOST_COMPARED;
     for (_, lamp) in lamps() {
-        let plane = Plane::of(lamp);
+        let plane = Plane::from_polygon(lamp);
         if view.may_see_front(lamp.outline(), plane.normal) {
             return None;
         }
@@ -122,8 +122,9 @@ fn corners_around(polygons: &[&Polygon]) -> Vec<DVec3> {
 fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
     let lamps = valid.polygons.iter().enumerate();
     let lamps = lamps.filter(|(_, p)| emits(valid, p));
-    let lamps: Vec<(usize, &Polygon, Plane)> =
-        lamps.map(|(number, p)| (number, p, Plane::of(p))).collect();
+    let lamps: Vec<(usize, &Polygon, Plane)> = lamps
+        .map(|(number, p)| (number, p, Plane::from_polygon(p)))
+        .collect();
     let mut found: Vec<Problem> = Vec::new();
     let mut pairs_left = MOST_PAIRS;
     for (number, lamp, plane) in &lamps {
@@ -161,7 +162,7 @@ struct Plane {
 }
 
 impl Plane {
-    fn of(polygon: &Polygon) -> Self {
+    fn from_polygon(polygon: &Polygon) -> Self {
         let [a, b, c, _] = polygon.vertices;
         Self {
             corner: a,

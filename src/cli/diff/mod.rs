@@ -71,14 +71,14 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
     let output = args.output.as_deref().map(Output::new).transpose()?;
     if let Some(output) = &output {
         let asked = args.output.as_deref().unwrap_or(Path::new(""));
-        if Encoding::of(asked, None)? == Encoding::Exr {
+        if Encoding::for_path(asked, None)? == Encoding::Exr {
             let message = "a map of errors is shown in colours: end its name in `.png`";
             return Err(Failure::Usage(message.to_owned()));
         }
         keep_apart([&*args.reference, &*args.picture], &[output])?;
         output.try_writing()?;
     }
-    let kinds = [&args.reference, &args.picture].map(|path| Encoding::of(path, None));
+    let kinds = [&args.reference, &args.picture].map(|path| Encoding::for_path(path, None));
     let [of_reference, of_picture] = kinds;
     let radiance = of_reference? == Encoding::Exr;
     if (of_picture? == Encoding::Exr) != radiance {
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let read = if radiance { read::exr } else { read::png };
-    let memory = Memory::of(args.max_memory);
+    let memory = Memory::new(args.max_memory);
     let [of_reference, of_picture] = [read(&args.reference, memory)?, read(&args.picture, memory)?];
     let (reference, picture) = (of_reference.image, of_picture.image);
     let refused = |error: SizesDiffer| Failure::Usage(error.to_string());

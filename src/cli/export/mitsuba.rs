@@ -11,7 +11,7 @@ use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-pub(super) fn run(args: &ExportArgs) -> Result<(), Failure> {
+pub(super) fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     let circuits = [
         ("--part", args.part.is_some()),
         ("--pixel", args.pixel.is_some()),

@@ -239,7 +239,7 @@ struct OracleFigures {
 }
 
 impl OracleFigures {
-    fn of(inspection: &Inspection) -> Self {
+    fn from_inspection(inspection: &Inspection) -> Self {
         Self {
             name: inspection.name,
             pixel: inspection.pixel.unwrap_or_default(),
@@ -279,7 +279,7 @@ struct Exported<'a> {
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     match args.format {
         Language::Circuit(format) => circuit(args, format),
-        Language::Mitsuba => mitsuba::run(args),
+        Language::Mitsuba => mitsuba::export_scene(args),
     }
 }
 
@@ -311,7 +311,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         ..PlanOptions::default()
     };
     memory::keep_plan(args.scene.memory(), &loaded.valid)?;
-    let planned = plan::of(&loaded.valid, &planning, args.json)?;
+    let planned = plan::choose(&loaded.valid, &planning, args.json)?;
     let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
     let written = scene.scene();
     let film = written.film;
@@ -341,7 +341,7 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
     let parts = inspection.oracle.index_parts();
-    let figures = OracleFigures::of(&inspection);
+    let figures = OracleFigures::from_inspection(&inspection);
     // The phase oracle has its own program, so the inspection can be freed.
     drop(inspection);
     let export = Export::new(&counting, args.part(), &parts);

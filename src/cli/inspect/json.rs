@@ -121,8 +121,8 @@ fn registers(shown: &Shown<'_>) -> Vec<Value> {
                 "type": register.ty.name(register.width),
                 "offset": lifetime.offset,
                 "width": register.width,
-                "depth": Label::of(block).depth,
-                "role": Role::of(register).to_string(),
+                "depth": Label::from_block(block).depth,
+                "role": Role::from_register(register).to_string(),
                 "block": block.name,
             })
         })

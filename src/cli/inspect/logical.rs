@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 /// pixel and of the film, under the two keys `unitary` and `measured`, with a description of the counts.
 ///
 /// # Errors
-/// Same as [`PictureCounts::of`].
+/// Same as [`PictureCounts::for_scene`].
 pub(super) fn json(
     loaded: &Loaded,
     scene: &ValidScene,
@@ -21,14 +21,15 @@ pub(super) fn json(
     plan: Option<&Figures>,
 ) -> Result<Value, Failure> {
     let planned = plan.map(|figures| figures.channel_queries);
-    let picture =
-        PictureCounts::of(scene, inspection.name.class, planned).map_err(|error| match error {
+    let picture = PictureCounts::for_scene(scene, inspection.name.class, planned).map_err(
+        |error| match error {
             PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
             PhysicalError::Estimator(_) | PhysicalError::TooMany => {
                 Failure::Usage(error.to_string())
             }
             other => Failure::Job(other.to_string()),
-        })?;
+        },
+    )?;
     let one = picture.channels[inspection.name.channel];
     let of = |kind: fn(&Counts) -> LogicalCounts| {
         let parts = [

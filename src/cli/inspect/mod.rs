@@ -138,7 +138,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     });
     memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Program)?;
     let front = if args.pareto {
-        Some(pareto::run(args, pixel, &loaded, scene, front.as_ref())?)
+        Some(pareto::report(args, pixel, &loaded, scene, front.as_ref())?)
     } else {
         None
     };
@@ -183,7 +183,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     };
     if in_terminal {
         out.push('\n');
-        out.push_str(&draw::frame_text(&Frame::of(&inspection)));
+        out.push_str(&draw::frame_text(&Frame::new(&inspection)));
     }
     terminal::print(&out)?;
     if is_front {

@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Returns the front as text or JSON; writes its drawing to `plot`.
-pub(super) fn run(
+pub(super) fn report(
     args: &InspectArgs,
     pixel: Option<OraclePixel>,
     loaded: &Loaded,
@@ -26,7 +26,7 @@ pub(super) fn run(
 ) -> Result<String, Failure> {
     let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
     let costs = oracle_costs_under(scene, Strategy::KEEP).map_err(refused)?;
-    let class = pixel.map(|pixel| PixelClasses::new(scene).of(pixel.place));
+    let class = pixel.map(|pixel| PixelClasses::new(scene).class(pixel.place));
     let asked = costs.into_iter();
     let asked = asked.filter(|cost| is_asked(cost, args.channel, class));
     let Some(OracleCost { name: oracle, .. }) = OracleCost::most_expensive(asked) else {

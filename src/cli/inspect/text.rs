@@ -327,7 +327,7 @@ fn registers(out: &mut String, inspection: &Inspection) {
             used,
             Role::ALL
                 .iter()
-                .position(|&role| role == Role::of(register)),
+                .position(|&role| role == Role::from_register(register)),
         ) {
             count[role].0 += 1;
             count[role].1 += u64::from(register.width);

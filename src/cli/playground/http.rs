@@ -60,7 +60,7 @@ impl Answer {
     }
 
     /// Returns the response for a resource that does not exist.
-    pub(super) fn none() -> Self {
+    pub(super) fn not_found() -> Self {
         Self::refused("404 Not Found")
     }
 

@@ -163,10 +163,12 @@ impl<'a> Served<'a> {
             ("GET", path) => {
                 let name = path.strip_prefix("/interactive/").unwrap_or_default();
                 let asset = ASSETS.iter().find(|(own, ..)| *own == name);
-                asset.map_or_else(Answer::none, |(_, kind, text)| Answer::text(kind, text))
+                asset.map_or_else(Answer::not_found, |(_, kind, text)| {
+                    Answer::text(kind, text)
+                })
             }
             ("POST", "/call") => self.call(asked.body).unwrap_or_else(Answer::wrong),
-            _ => Answer::none(),
+            _ => Answer::not_found(),
         }
     }
 

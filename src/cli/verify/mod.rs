@@ -102,7 +102,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         ..PlanOptions::default()
     };
     memory::keep_plan(args.scene.memory(), &loaded.valid)?;
-    let planned = plan::of(&loaded.valid, &planning, args.json)?;
+    let planned = plan::choose(&loaded.valid, &planning, args.json)?;
     let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
     if args.parts.is_empty() {
         let work = CircuitWork::Gates(args.threads.or_cores());
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         bar.set_up();
         let verified = verify(&scene, &options);
         bar.clear();
-        Found::of(verified?, start.elapsed().as_secs_f64())
+        Found::from_report(verified?, start.elapsed().as_secs_f64())
     } else {
         parts::put_together(&args.parts, &scene, &options)?
     };
@@ -153,7 +153,7 @@ struct Found {
 }
 
 impl Found {
-    fn of(report: Report, seconds: f64) -> Self {
+    fn from_report(report: Report, seconds: f64) -> Self {
         Self {
             defect: (report.defect.as_ref())
                 .map(|defect| json::defect(defect, report.defect_model)),
@@ -171,7 +171,7 @@ impl Found {
         let defect = self.defect.as_ref()?;
         let name = defect["model"].as_str()?;
         let model = Model::ALL.into_iter().find(|model| model.name() == name)?;
-        let pixel = parts::words(&defect["pixel"])?;
+        let pixel = parts::pixel(&defect["pixel"])?;
         Some((model, pixel, defect["id"].as_u64()?))
     }
 

@@ -84,7 +84,7 @@ fn part(
     if answer["version"] != 1 || answer["qrt"] != env!("CARGO_PKG_VERSION") {
         return Err(none());
     }
-    let tile = words(&answer["tile"]).ok_or_else(none)?;
+    let tile = pixel(&answer["tile"]).ok_or_else(none)?;
     let portion = Portion::new(tile[0], tile[1]).map_err(|_| none())?;
     let found = found(&answer, scene).ok_or_else(none)?;
     let differs = |what: &str| {
@@ -116,7 +116,7 @@ fn part(
 
 /// Parses an answer; `None` if it lacks something.
 fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
-    let pixels = answer["pixels"].as_array()?.iter().map(words);
+    let pixels = answer["pixels"].as_array()?.iter().map(pixel);
     let mismatches = answer["mismatches"].as_array()?.iter().map(mismatch);
     let measured = answer["defect"].is_null();
     let of = |value: &Value| {
@@ -175,7 +175,7 @@ fn mismatch(value: &Value) -> Option<Mismatch> {
         Some([colour.as_i64()?, count.as_i64()?])
     };
     Some(Mismatch {
-        pixel: words(&value["pixel"])?,
+        pixel: pixel(&value["pixel"])?,
         id: value["id"].as_u64()?,
         channel: (value["channel"].as_u64()?.try_into().ok()).filter(|channel| *channel < 3)?,
         fixed: pair("fixed")?,
@@ -184,7 +184,7 @@ fn mismatch(value: &Value) -> Option<Mismatch> {
     })
 }
 
-pub(super) fn words(value: &Value) -> Option<[u32; 2]> {
+pub(super) fn pixel(value: &Value) -> Option<[u32; 2]> {
     let words = value.as_array()?.iter();
     let words = words.map(|word| word.as_u64()?.try_into().ok());
     words.collect::<Option<Vec<u32>>>()?.try_into().ok()

@@ -45,7 +45,7 @@ impl States {
         }
         let of_pixels: Vec<Vec<u64>> = pixels
             .iter()
-            .map(|pixel| oracle.words(seed, *pixel))
+            .map(|pixel| oracle.parameter_words(seed, *pixel))
             .collect();
         let words = circuit
             .parameters

@@ -59,7 +59,7 @@ impl Inlines<'_> {
                     self.cite(&dest_url, range);
                 }
             }
-            Event::Text(words) if !self.in_code => self.words(&words, range.start),
+            Event::Text(words) if !self.in_code => self.check_dollars(&words, range.start),
             Event::Html(html) | Event::InlineHtml(html) => {
                 self.interactive |= html.contains("data-figure=");
                 if html.contains('$') {
@@ -113,7 +113,7 @@ impl Inlines<'_> {
     }
 
     /// Checks words, in which a dollar sign must have a backslash before it.
-    fn words(&mut self, words: &str, at: usize) {
+    fn check_dollars(&mut self, words: &str, at: usize) {
         let (before, text) = self.traced.text.split_at(at);
         let words = match words.strip_prefix('$') {
             Some(rest) if before.ends_with('\\') => rest,

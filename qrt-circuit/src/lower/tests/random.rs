@@ -245,7 +245,7 @@ proptest! {
         let lowered = circuit(program);
         prop_assert_eq!(most_qubits(program), lowered.qubits);
         prop_assert_eq!(size(program), size_of(&lowered));
-        let figures = KnownFigures::default().of(&op, |id| program.width(id));
+        let figures = KnownFigures::default().figures(&op, |id| program.width(id));
         prop_assert_eq!(figures.costs, costs(&op, |id| program.width(id)));
         prop_assert_eq!(figures.scratch, scratch_width(&op, |id| program.width(id)));
     }
@@ -270,7 +270,7 @@ fn products_with_constants_are_nearly_counted_without_their_gates() {
     assert!(10 * least > 9 * toffoli, "{least} of {toffoli}");
     let ops: Vec<&Op> = ops.iter().collect();
     let mut known = KnownFigures::default();
-    let each: Vec<_> = ops.iter().map(|op| known.of(op, width)).collect();
+    let each: Vec<_> = ops.iter().map(|op| known.figures(op, width)).collect();
     let [all, again] = [KnownFigures::default(), known].map(|mut known| {
         let all = known.all(&ops, width, Cores::All);
         assert_eq!(known.len(), ops.len());

@@ -3,7 +3,8 @@
 use super::Marks;
 use crate::compile::{self, Bool, Builder, Real, Role};
 use crate::oracle::paths::{PathFormats, PathNumber, RayNumber as Of};
-use crate::oracle::recording::{PrimaryHit, record, target};
+use crate::oracle::recording::{PrimaryHit, record};
+use crate::oracle::target::target;
 use crate::oracle::{Channel, Options, Oracle, OracleError, register_of};
 use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
 use qrt_circuit::{RegisterId, Type};
@@ -86,8 +87,8 @@ pub(super) fn traced(
     );
     let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
     for channel in &mut channels {
-        channel.colour = channel.colour.of(rename);
-        channel.count = channel.count.of(rename);
+        channel.colour = channel.colour.map_register(rename);
+        channel.count = channel.count.map_register(rename);
     }
     let registers: Vec<RegisterId> = registers.into_iter().map(rename).collect();
     for (number, register) in names.into_iter().zip(&registers) {

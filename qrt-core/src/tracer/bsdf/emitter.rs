@@ -1,8 +1,8 @@
 //! Emission: radiance from the front. An emitter reflects as a Lambertian does, or not at all.
 
 use super::vertex::{Vertex, members};
-use crate::tracer::Arith;
-use crate::tracer::vector;
+use crate::tracer::radiance::in_units;
+use crate::tracer::{Arith, vector};
 use qrt_scene::valid::Surface;
 use std::ops::Range;
 
@@ -67,16 +67,5 @@ impl<const C: usize> Emitters<C> {
         };
         let none = [cx.real(0.0); C];
         vector::select(cx, shows, &arriving, &none)
-    }
-}
-
-/// Converts radiance to `units`, except in channels whose unit is 0.
-pub(crate) fn in_units<const C: usize>(radiance: &mut [[f64; C]], units: [f64; C]) {
-    for radiance in radiance {
-        for (value, unit) in radiance.iter_mut().zip(units) {
-            if unit > 0.0 {
-                *value /= unit;
-            }
-        }
     }
 }

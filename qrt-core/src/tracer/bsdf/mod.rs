@@ -17,10 +17,10 @@ mod phong;
 mod tests;
 mod vertex;
 
-pub(crate) use emitter::{Emitters, in_units};
+pub(crate) use emitter::Emitters;
 pub(crate) use vertex::{Vertex, members};
 
-use super::lights::{LightStage, Towards};
+use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Part, Sampled};
@@ -322,7 +322,7 @@ impl<const C: usize> ScatterStage<C> {
     }
 
     /// True if surface `number` scatters.
-    pub(crate) fn scatters(&self, number: u32) -> bool {
+    fn scatters(&self, number: u32) -> bool {
         self.lobe(number).is_some()
     }
 
@@ -336,8 +336,17 @@ impl<const C: usize> ScatterStage<C> {
     }
 
     /// True if surface `number` is a Lambertian under the cosine map, whose weight is its albedo.
-    pub(crate) fn is_projected(&self, number: u32) -> bool {
+    fn is_projected(&self, number: u32) -> bool {
         self.square.map.is_projected() && matches!(self.lobe(number), Some(Lobe::Lambertian))
+    }
+
+    /// The properties of surface `number` that the sampling of lamps depends on.
+    pub(crate) fn receiver(&self, number: u32) -> Receiver {
+        Receiver {
+            scatters: self.scatters(number),
+            samples_lights: self.samples_lights(number),
+            is_projected: self.is_projected(number),
+        }
     }
 
     /// True if lobes have to compute their density.

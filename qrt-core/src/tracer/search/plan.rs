@@ -1,8 +1,8 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
-use crate::tracer::geometry::{EdgeTest, Geometry, Plane};
-use crate::tracer::polygon::edge_test;
+use crate::tracer::geometry::Geometry;
+use crate::tracer::polygon::{EdgeTest, Plane, edge_test};
 use crate::tracer::ray::Start;
 use glam::DVec3;
 use qrt_scene::polygons::SAME_PLANE;
@@ -365,7 +365,7 @@ impl Planner<'_> {
     /// The facet of `faces` (by place) of one plane, with tests of their edges that are not `implied`.
     fn facet(&self, axis: usize, faces: &[usize], implied: impl Fn([u32; 2]) -> bool) -> Facet {
         let tested = |&place: &usize| -> Vec<[u32; 2]> {
-            let edges = self.edges.of(place);
+            let edges = self.edges.of_face(place);
             edges.filter(|&edge| !implied(edge)).collect()
         };
         let all: Vec<Vec<[u32; 2]>> = faces.iter().map(tested).collect();

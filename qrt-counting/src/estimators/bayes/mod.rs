@@ -44,7 +44,7 @@ struct Goal {
 const DOUBT: f64 = 1e-12;
 
 impl Goal {
-    fn of(settings: &Settings) -> Result<Self, EstimatorError> {
+    fn from_settings(settings: &Settings) -> Result<Self, EstimatorError> {
         settings.check()?;
         Ok(Self {
             queries: settings.queries,

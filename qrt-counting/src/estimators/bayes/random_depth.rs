@@ -33,7 +33,7 @@ impl RandomDepth {
     /// # Errors
     /// A setting out of range.
     pub fn new(settings: &Settings) -> Result<Self, EstimatorError> {
-        let goal = Goal::of(settings)?;
+        let goal = Goal::from_settings(settings)?;
         Ok(Self { goal })
     }
 }

@@ -63,7 +63,7 @@ fn settings(queries: u64, strata: Option<u32>) -> Settings {
     Settings {
         queries,
         strata,
-        ..Settings::of(&Counting::default()).unwrap()
+        ..Settings::from_counting(&Counting::default()).unwrap()
     }
 }
 

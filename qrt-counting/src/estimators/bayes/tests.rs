@@ -18,7 +18,7 @@ fn settings(queries: u64) -> Settings {
     };
     Settings {
         queries,
-        ..Settings::of(&counting).unwrap()
+        ..Settings::from_counting(&counting).unwrap()
     }
 }
 
@@ -27,7 +27,7 @@ fn settings(queries: u64) -> Settings {
 fn over_every_count(total: u64, noise: Noise, shots: &[(u64, u64, u64)]) -> (f64, f64) {
     let bits = u64::BITS - (total - 1).leading_zeros();
     let weight = |good: u64| {
-        let angle = Angle::of(good, total).unwrap();
+        let angle = Angle::from_counts(good, total).unwrap();
         let (any, other) = angle.sine_squared(1);
         let mut product = 1.0;
         for &(iterations, hits, misses) in shots {

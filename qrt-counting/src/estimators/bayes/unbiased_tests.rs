@@ -12,7 +12,7 @@ fn black_stays_black_and_white_white() {
         for queries in [1, 2, 15, 63, 255, 4095] {
             let settings = Settings {
                 queries,
-                ..Settings::of(&Counting::default()).unwrap()
+                ..Settings::from_counting(&Counting::default()).unwrap()
             };
             let estimator = estimator(name, &settings).unwrap();
             for good in [0, total] {

@@ -32,7 +32,7 @@ pub struct Iterative {
 
 impl AmplitudeEstimator for Iterative {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        self.rules.run(&self.goal, device)
+        self.rules.estimate(&self.goal, device)
     }
 }
 
@@ -130,7 +130,7 @@ impl Rules {
     }
 
     /// Measures until the goal is reached.
-    fn run(&self, goal: &Goal, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
+    fn estimate(&self, goal: &Goal, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
         let start = device.usage();
         let mut arc = Arc::ALL;
         let mut depth = self.depth(goal, 1);

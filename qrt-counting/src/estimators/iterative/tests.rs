@@ -9,7 +9,7 @@ fn settings(queries: u64, error: Option<f64>) -> Settings {
     Settings {
         queries,
         error,
-        ..Settings::of(&Counting::default()).unwrap()
+        ..Settings::from_counting(&Counting::default()).unwrap()
     }
 }
 

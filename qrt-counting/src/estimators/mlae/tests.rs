@@ -159,7 +159,7 @@ fn known_noise_is_reckoned_with() {
         let settings = Settings {
             queries: 3000,
             known_noise,
-            ..Settings::of(&Counting::default()).unwrap()
+            ..Settings::from_counting(&Counting::default()).unwrap()
         };
         let estimator = Mlae::new(&settings);
         let runs = 400;

@@ -101,13 +101,13 @@ impl Dense {
     /// If `state` has bits beyond the machine's qubits.
     pub fn amplitude(&mut self, state: u64) -> Complex<f64> {
         assert!(state >> self.qubits == 0, "a state of other qubits");
-        self.run();
+        self.run_waiting();
         self.amplitudes[state as usize ^ self.plan.frame] * self.plan.scale()
     }
 
     /// Executes the gates that wait.
-    fn run(&mut self) {
-        let steps = self.plan.take();
+    fn run_waiting(&mut self) {
+        let steps = self.plan.take_steps();
         let mut rest = &steps[..];
         while let Some(first) = rest.first() {
             let reach = |step: &Kernel| usize::BITS - step.targets().leading_zeros();
@@ -215,7 +215,7 @@ impl Dense {
     /// Sums the squares of amplitudes by the value of `place` for their index. The sum is in the
     /// order of memory.
     fn sums(&mut self, places: usize, place: impl Fn(usize) -> usize) -> Vec<f64> {
-        self.run();
+        self.run_waiting();
         let (frame, scale) = (self.plan.frame, self.plan.scale());
         let mut sums = vec![0.0; places];
         // In runs, so that long sums do not lose their last bits.
@@ -258,7 +258,7 @@ impl StateVector for Dense {
     fn gate(&mut self, gate: QuantumGate<'_>) -> Result<(), StateVectorError> {
         self.plan.gate(gate, self.qubits)?;
         if self.plan.len() >= WAITING {
-            self.run();
+            self.run_waiting();
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ impl Plan {
 
     /// Takes all steps that wait. A Hadamard's factor of `1/sqrt(2)` is kept back until there are
     /// two.
-    pub(super) fn take(&mut self) -> Vec<Kernel> {
+    pub(super) fn take_steps(&mut self) -> Vec<Kernel> {
         let mut steps = std::mem::take(&mut self.steps);
         for step in &mut steps {
             if let Kernel::Hadamards { mask, scale } = step {

@@ -106,7 +106,7 @@ impl Sparse {
     /// # Errors
     /// As [`StateVector::gate`], for gates that waited.
     pub fn states(&mut self) -> Result<u64, StateVectorError> {
-        self.run()?;
+        self.run_waiting()?;
         Ok(self.states as u64)
     }
 
@@ -145,7 +145,7 @@ impl Sparse {
                 most: 64,
             });
         }
-        self.run()?;
+        self.run_waiting()?;
         let mut values = filled(0, self.states)?;
         for (block, values) in self.blocks.iter().zip(values.chunks_mut(STATES)) {
             block.values(register, values);
@@ -162,7 +162,7 @@ impl Sparse {
     }
 
     /// Executes the gates that wait.
-    fn run(&mut self) -> Result<(), StateVectorError> {
+    fn run_waiting(&mut self) -> Result<(), StateVectorError> {
         self.run_local();
         while !self.hadamards.is_empty() {
             let count = self.hadamards.len().min(TOGETHER);
@@ -197,7 +197,7 @@ impl Sparse {
     /// Adds a step that does not mix states. Hadamards that wait run first.
     fn wait(&mut self, step: Local) -> Result<(), StateVectorError> {
         if !self.hadamards.is_empty() {
-            self.run()?;
+            self.run_waiting()?;
         }
         self.waiting.push(step);
         if self.waiting.len() >= WAITING {
@@ -228,7 +228,7 @@ impl StateVector for Sparse {
             QuantumGate::H(t) => {
                 is(&[t])?;
                 if self.hadamards.contains(&t) {
-                    self.run()?;
+                    self.run_waiting()?;
                 }
                 self.hadamards.push(t);
                 Ok(())
@@ -238,7 +238,7 @@ impl StateVector for Sparse {
                 if !angle.is_finite() {
                     return Err(StateVectorError::Angle(angle));
                 }
-                self.run()?;
+                self.run_waiting()?;
                 let matrix = super::dense::rotation(angle);
                 self.mix(&[target], Kernel::Rotate { target: 0, matrix })
             }
@@ -262,7 +262,7 @@ impl StateVector for Sparse {
 
     fn excited(&mut self, qubits: &[Qubit]) -> Result<f64, StateVectorError> {
         check_qubits(qubits, self.qubits)?;
-        self.run()?;
+        self.run_waiting()?;
         let scale = self.scale();
         let sums = self.blocks.iter().map(|block| block.excited(qubits));
         Ok(sums.sum::<f64>() * scale * scale)
@@ -293,7 +293,7 @@ impl StateVector for Sparse {
     }
 
     fn norm(&mut self) -> Result<f64, StateVectorError> {
-        self.run()?;
+        self.run_waiting()?;
         let scale = self.scale();
         let sums = self.blocks.iter().map(|block| {
             let squares = block.amplitudes.iter().map(Complex::norm_sqr);

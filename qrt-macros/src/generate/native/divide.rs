@@ -14,9 +14,9 @@ impl Coder<'_> {
         b: (Number, u32),
         width: u32,
     ) -> (Number, String) {
-        let range = Range::of(width, false);
+        let range = Range::of_width(width, false);
         let all = Self::constant(range.high);
-        let small = Range::of(24, false);
+        let small = Range::of_width(24, false);
         let plain = a.0.range.within(small) && b.0.range.within(small);
         let up = a.1.saturating_sub(b.1);
         if plain && a.1 >= b.1 && up < 100 && width <= 24 {
@@ -31,7 +31,7 @@ impl Coder<'_> {
         let rest = self.choose(&a, &fits, &Self::constant(0));
         let divisor = self.choose(&Self::constant(1), &none, &b);
         let (rest, divisor) = (self.longs(&rest), self.longs(&divisor));
-        let doubles = Range::of(52, false);
+        let doubles = Range::of_width(52, false);
         let how = if a.range.within(doubles) && b.range.within(doubles) {
             "quotient_double"
         } else {
@@ -71,6 +71,6 @@ impl Coder<'_> {
             self.bind(&format!("v.ints(0).less({product})"))
         };
         let value = format!("{near}.sub(v.ints(1)).choose({beyond}, {near})");
-        (self.of_ints(Range::of(width, false), &value), fits)
+        (self.of_ints(Range::of_width(width, false), &value), fits)
     }
 }

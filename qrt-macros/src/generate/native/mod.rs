@@ -62,8 +62,8 @@ fn code(oracle: &Oracle, names: &Names) -> String {
         variables: HashMap::new(),
         temporaries: 0,
     };
-    let id = coder.of_longs(Range::of(63, false), "ids".to_owned());
-    let paths = Range::of(oracle.points.path_bits().max(1), false);
+    let id = coder.of_longs(Range::of_width(63, false), "ids".to_owned());
+    let paths = Range::of_width(oracle.points.path_bits().max(1), false);
     let id = if paths.narrow() {
         Number {
             text: coder.ints(&id),
@@ -170,7 +170,7 @@ impl Coder<'_> {
             && !last.is_named
             && last.name == *variable
         {
-            self.names.of(id).clone_into(variable);
+            self.names.variable(id).clone_into(variable);
             last.name.clone_from(variable);
             last.is_named = true;
         }

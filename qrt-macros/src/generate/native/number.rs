@@ -84,7 +84,7 @@ impl Coder<'_> {
 
     /// Returns the lowest `width` bits, extended by zeros or copies of the top one.
     pub(super) fn cut(&mut self, a: Number, width: u32, signed: bool) -> Number {
-        let range = Range::of(width, signed);
+        let range = Range::of_width(width, signed);
         if a.range.within(range) {
             return a;
         }
@@ -191,11 +191,11 @@ impl Coder<'_> {
     pub(super) fn root(&mut self, a: &Number) -> Number {
         let high = a.range.high.cast_unsigned();
         let bits = (64 - high.leading_zeros()).div_ceil(2).max(1);
-        let range = Range::of(bits, false);
-        if a.range.within(Range::of(23, false)) {
+        let range = Range::of_width(bits, false);
+        if a.range.within(Range::of_width(23, false)) {
             return self.of_ints(range, &format!("v.root_single({})", a.text));
         }
-        let how = if a.range.within(Range::of(52, false)) {
+        let how = if a.range.within(Range::of_width(52, false)) {
             "root_double"
         } else {
             "root_of_longs"

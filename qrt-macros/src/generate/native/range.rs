@@ -18,7 +18,7 @@ impl Range {
     }
 
     /// Returns the range of the numbers of `width` bits, as 64 bits read them.
-    pub(super) fn of(width: u32, signed: bool) -> Self {
+    pub(super) fn of_width(width: u32, signed: bool) -> Self {
         if width >= 64 {
             return Self::ALL;
         }

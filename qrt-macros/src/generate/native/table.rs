@@ -11,7 +11,7 @@ impl Coder<'_> {
     pub(super) fn classical(&mut self, parameter: u32, target: RegisterId) -> Number {
         let register = self.register(target);
         let (width, signed) = (register.width, signed(register.ty));
-        let range = Range::of(width, signed);
+        let range = Range::of_width(width, signed);
         let word = format!("word(words, {parameter}, {width}, {signed})");
         let value = if range.narrow() {
             format!("v.ints({word} as i32)")
@@ -57,7 +57,7 @@ impl Coder<'_> {
             sum = Number { text, range };
         }
         let fits = columns.iter().all(|column| column >> (width - 1) <= 1);
-        let unsigned = Range::of(width, false);
+        let unsigned = Range::of_width(width, false);
         if fits && unsigned.narrow() && !signed(self.register(target).ty) {
             sum.range = unsigned;
         }
@@ -117,7 +117,7 @@ impl Coder<'_> {
     fn look_up(&mut self, index: &str, bits: u32, column: &[i64], target: RegisterId) {
         let register = self.register(target);
         let (width, signed) = (register.width, signed(register.ty));
-        let range = Range::of(width, signed);
+        let range = Range::of_width(width, signed);
         if width == 1 && !signed && bits <= 5 {
             let entries = column.iter().take(32).enumerate();
             let marks = entries.fold(0_u32, |marks, (place, entry)| {

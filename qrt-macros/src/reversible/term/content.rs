@@ -47,7 +47,7 @@ pub(super) struct Content(Vec<Addend>);
 
 impl Content {
     /// Creates the content of a register that holds `value` at the beginning.
-    pub(super) fn of(value: Value) -> Self {
+    pub(super) fn from_value(value: Value) -> Self {
         let part = Addend {
             subtracted: false,
             path: Path::new(),

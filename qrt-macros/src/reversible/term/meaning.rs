@@ -7,7 +7,7 @@ use crate::reversible::ir::{
     Place, Register, Signature, Statement, StatementKind as K, Term, Update, inverse,
 };
 use crate::reversible::problem::Problems;
-use crate::reversible::scope::{text, type_text};
+use crate::reversible::source::{text, type_text};
 use proc_macro2::TokenStream;
 use qrt_scene::expr::{Domain, Expr, Interval, MAX_LENGTH, Variable};
 use qrt_scene::syntax::codes;
@@ -46,7 +46,7 @@ impl<'a> Meaning<'a> {
             let name = register.name.to_string();
             let variable = Variable::ALL.into_iter().find(|v| name == v.name());
             let content = variable.map_or_else(Content::default, |variable| {
-                Content::of(Value {
+                Content::from_value(Value {
                     expr: Expr::variable(variable),
                     error: Interval::point(0.0),
                     run: domain.get(variable),
@@ -89,7 +89,7 @@ impl<'a> Meaning<'a> {
         Some(texts)
     }
 
-    pub(super) fn run(&mut self, statements: &[Statement]) {
+    pub(super) fn statements(&mut self, statements: &[Statement]) {
         for statement in statements {
             if !self.step() {
                 return;
@@ -137,7 +137,7 @@ impl<'a> Meaning<'a> {
                 for (value, body) in [(true, holds), (false, fails)] {
                     for path in self.paths(bit, value, &condition)? {
                         self.path = path;
-                        self.run(body);
+                        self.statements(body);
                     }
                     self.path.clone_from(&around);
                 }
@@ -159,24 +159,24 @@ impl<'a> Meaning<'a> {
                         break;
                     }
                     self.loops.push((variable.clone(), pass));
-                    self.run(body);
+                    self.statements(body);
                     self.loops.pop();
                 }
             }
             K::Within(within, apply) => {
-                self.run(within);
-                self.run(apply);
+                self.statements(within);
+                self.statements(apply);
                 if self.problems.count() == 0 {
-                    self.run(&inverse(within));
+                    self.statements(&inverse(within));
                 }
             }
             K::Scratch(register, body) => {
                 let name = register.name.to_string();
                 self.registers.insert(name.clone(), Content::default());
-                self.run(body);
+                self.statements(body);
                 self.registers.remove(&name);
             }
-            K::Block(body) => self.run(body),
+            K::Block(body) => self.statements(body),
         }
         Some(())
     }

@@ -5,7 +5,7 @@ use super::content::{Content, Less, Path, Value, added, negative};
 use super::meaning::Meaning;
 use crate::reversible::dim::Linear;
 use crate::reversible::ir::{Bit, Kind, Number, NumberKind, Register};
-use crate::reversible::scope::text;
+use crate::reversible::source::text;
 use proc_macro2::TokenStream;
 use qrt_scene::expr::{Expr, Interval};
 

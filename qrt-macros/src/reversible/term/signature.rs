@@ -4,7 +4,7 @@ use super::bounds;
 use super::offer::variable;
 use crate::reversible::ir::{Register, Signature};
 use crate::reversible::problem::Problems;
-use crate::reversible::scope::type_text;
+use crate::reversible::source::type_text;
 use proc_macro2::TokenStream;
 use qrt_scene::expr::{Domain, Interval, Variable};
 use qrt_scene::syntax::{codes, nearest};

@@ -1,7 +1,7 @@
 //! The statement that is at fault for a wrong content of a register.
 
 use crate::reversible::problem::Problems;
-use crate::reversible::scope::{begin, text};
+use crate::reversible::source::{begin, text};
 use proc_macro2::TokenStream;
 use qrt_scene::syntax::codes;
 use quote::ToTokens;

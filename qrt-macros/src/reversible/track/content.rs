@@ -22,7 +22,7 @@ impl Content {
         }
     }
 
-    pub(super) fn of(bits: &[Bit], sums: &Sums) -> Self {
+    pub(super) fn from_bits(bits: &[Bit], sums: &Sums) -> Self {
         let mut content = Self::zero(bits.len());
         content.add(bits, 1, sums);
         content

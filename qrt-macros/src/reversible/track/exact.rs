@@ -14,7 +14,7 @@ use crate::reversible::ir::{
     Bit, Place, Register, Statement, StatementKind as K, Term, Update, inverse,
 };
 use crate::reversible::problem::Problems;
-use crate::reversible::scope::text;
+use crate::reversible::source::text;
 use proc_macro2::TokenStream;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
@@ -60,7 +60,7 @@ impl Exact {
             let width = exact.known(&register.format.width)? as usize;
             for name in exact.names(register)? {
                 let bits = exact.atoms.bits(&name, width);
-                let content = Content::of(&bits, &exact.sums);
+                let content = Content::from_bits(&bits, &exact.sums);
                 exact.registers.insert(name, content);
             }
         }
@@ -85,7 +85,7 @@ impl Exact {
         })
     }
 
-    pub(super) fn run(&mut self, statements: &[Statement]) -> Known<()> {
+    pub(super) fn statements(&mut self, statements: &[Statement]) -> Known<()> {
         statements.iter().try_for_each(|one| self.statement(one))
     }
 
@@ -126,7 +126,7 @@ impl Exact {
                 for pass in passes {
                     self.loops.push((variable.clone(), pass));
                     self.step(1)?;
-                    self.run(body)?;
+                    self.statements(body)?;
                     self.loops.pop();
                 }
             }
@@ -138,7 +138,7 @@ impl Exact {
                 for name in &names {
                     self.registers.insert(name.clone(), Content::zero(width));
                 }
-                self.run(body)?;
+                self.statements(body)?;
                 let mut dirty = Vec::new();
                 for name in &names {
                     if !self.bits(name).iter().all(Poly::is_zero) {
@@ -152,7 +152,7 @@ impl Exact {
                     self.registers.remove(name);
                 }
             }
-            K::Block(body) => self.run(body)?,
+            K::Block(body) => self.statements(body)?,
         }
         Ok(())
     }
@@ -229,7 +229,7 @@ impl Exact {
 
     /// Replaces the bits of a register.
     fn rewrite(&mut self, name: &str, bits: &[Poly]) {
-        let content = Content::of(bits, &self.sums);
+        let content = Content::from_bits(bits, &self.sums);
         self.replace(name, content);
     }
 
@@ -286,7 +286,7 @@ impl Exact {
         let after = self.calls.get(&known).cloned().unwrap_or_else(|| {
             let fresh = contents.iter().enumerate().map(|(place, content)| {
                 let name = format!("{done} {read:?} {before:?} {place}");
-                Content::of(&self.atoms.bits(&name, content.width()), &self.sums)
+                Content::from_bits(&self.atoms.bits(&name, content.width()), &self.sums)
             });
             fresh.collect()
         });
@@ -310,7 +310,7 @@ impl Exact {
     fn branch(&mut self, condition: &Bit, holds: &[Statement], fails: &[Statement]) -> Known<()> {
         let condition = self.bit(condition)?;
         if let Some(value) = condition.known() {
-            return self.run(if value { holds } else { fails });
+            return self.statements(if value { holds } else { fails });
         }
         let (atom, value) = condition.as_guard(&mut self.atoms);
         let before = self.registers.clone();
@@ -325,7 +325,7 @@ impl Exact {
             self.step(if body.is_empty() { 0 } else { start.len() })?;
             self.registers.clone_from(&start);
             self.guards = format!("{around}{atom}={value} ");
-            self.run(body)?;
+            self.statements(body)?;
             ends.push((value, start, std::mem::take(&mut self.registers)));
         }
         self.guards = around;
@@ -366,14 +366,14 @@ impl Exact {
 
     fn within(&mut self, within: &[Statement], apply: &[Statement]) -> Known<()> {
         self.touched.push(BTreeSet::new());
-        self.run(within)?;
+        self.statements(within)?;
         let touched = self.touched.pop().unwrap_or_default();
         if let Some(around) = self.touched.last_mut() {
             around.extend(touched.iter().cloned());
         }
         let computed = self.registers.clone();
         let begin = self.log.len();
-        self.run(apply)?;
+        self.statements(apply)?;
         let mut changed = BTreeSet::new();
         for (name, before) in &computed {
             let before = before.bits(&mut self.atoms, &mut self.sums);
@@ -389,7 +389,7 @@ impl Exact {
             self.replace(&name, computed[&name].clone());
         }
         let again = std::mem::replace(&mut self.log.again, true);
-        self.run(&inverse(within))?;
+        self.statements(&inverse(within))?;
         self.log.again = again;
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::reversible::dim::Linear;
 use crate::reversible::ir::{Bit, Statement, StatementKind as K, Term};
-use crate::reversible::scope::text;
+use crate::reversible::source::text;
 
 /// Returns a text that is equal for statements with the same effect.
 pub(super) fn key(kind: &K) -> String {

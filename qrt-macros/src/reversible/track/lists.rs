@@ -32,14 +32,14 @@ struct RegisterBits {
 
 impl RegisterBits {
     fn all(register: &Register) -> Self {
-        Self::of(&Place {
+        Self::from_place(&Place {
             register: Rc::new(register.clone()),
             part: None,
         })
     }
 
     /// Returns the bits of a place. The bits of an array are counted through all of its registers.
-    fn of(Place { register, part }: &Place) -> Self {
+    fn from_place(Place { register, part }: &Place) -> Self {
         let bits = match (&register.element, register.format.width.known()) {
             (None, _) => part.clone(),
             (Some(_), None) => None,
@@ -101,7 +101,7 @@ struct Change {
 struct Names(HashMap<String, u64>);
 
 impl Names {
-    fn of(&mut self, content: String) -> u64 {
+    fn number(&mut self, content: String) -> u64 {
         let next = self.0.len() as u64;
         *self.0.entry(content).or_insert(next)
     }
@@ -205,7 +205,7 @@ impl<'a> Tracker<'a> {
     /// Returns the name of the content of some bits.
     fn content(&mut self, part: &RegisterBits, frame: &Frame) -> u64 {
         let base = frame.before.get(&part.register).copied();
-        let base = base.unwrap_or_else(|| self.names.of(format!("begin {}", part.register)));
+        let base = base.unwrap_or_else(|| self.names.number(format!("begin {}", part.register)));
         let changes = frame.changes.get(&part.register).into_iter().flatten();
         let changes: Vec<&Change> = changes
             .filter(|change| change.part.meets(part, &self.loops))
@@ -219,7 +219,7 @@ impl<'a> Tracker<'a> {
             keys.sort_unstable();
             content.extend([" (", &keys.join("; "), ")"]);
         }
-        self.names.of(content)
+        self.names.number(content)
     }
 
     /// Records a change of one or several registers.
@@ -319,7 +319,7 @@ impl<'a> Tracker<'a> {
                         Update::Subtract => (Class::Sum, Update::Add),
                         Update::Xor => (Class::Xor, Update::Xor),
                     };
-                    let parts = [&[RegisterBits::of(place)][..], &read(term)];
+                    let parts = [&[RegisterBits::from_place(place)][..], &read(term)];
                     self.change(parts, &[one(*update), one(back)], class, source, frame);
                 }
             }
@@ -339,7 +339,7 @@ impl<'a> Tracker<'a> {
             }
             K::If(condition, holds, fails) => {
                 let mut read = Vec::new();
-                condition.reads(&mut |place| read.push(RegisterBits::of(&place)));
+                condition.reads(&mut |place| read.push(RegisterBits::from_place(&place)));
                 let inside = [holds, fails].map(|body| self.inside(body, frame));
                 self.compound(statement, read, &inside, frame);
             }
@@ -462,7 +462,7 @@ impl<'a> Tracker<'a> {
         let name = register.name.to_string();
         // Its content is zero, even if another block has used the name.
         let zero = format!("zero {name}: {}", register.type_text());
-        frame.before.insert(name.clone(), self.names.of(zero));
+        frame.before.insert(name.clone(), self.names.number(zero));
         self.block(body, frame);
         let dirty = frame.changes.remove(&name).unwrap_or_default();
         let dirty: Vec<(blame::Texts, TokenStream)> = dirty
@@ -482,7 +482,7 @@ impl<'a> Tracker<'a> {
 
 fn read(term: &Term) -> Vec<RegisterBits> {
     let mut read = Vec::new();
-    let mut visit = |place: Place| read.push(RegisterBits::of(&place));
+    let mut visit = |place: Place| read.push(RegisterBits::from_place(&place));
     match term {
         Term::Number(number) => number.reads(&mut visit),
         Term::Bit(bit, _) => bit.reads(&mut visit),

@@ -94,7 +94,7 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
         let most = cx.scale(least, STEEPEST);
         let least = cx.neg(most);
         let (before, beyond) = (cx.real(f64::NEG_INFINITY), cx.real(f64::INFINITY));
-        keep(&start, &mut lines.start);
+        keep_double(&start, &mut lines.start);
         for axis in 0..3 {
             let way = cx.mul(start, ray.direction[axis]);
             let origin = cx.add(ray.origin[axis], way);
@@ -117,15 +117,15 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
             let inverse = cx.select(served, inverse, zero);
             let enter = cx.select(served, enter, before);
             let leave = cx.select(served, leave, beyond);
-            keep(&ray.origin[axis], &mut lines.origin[axis]);
-            keep(&ray.direction[axis], &mut lines.direction[axis]);
+            keep_double(&ray.origin[axis], &mut lines.origin[axis]);
+            keep_double(&ray.direction[axis], &mut lines.direction[axis]);
             keep_single(&inverse, &mut lines.inverse[axis]);
             keep_single(&enter, &mut lines.enter[axis]);
             keep_single(&leave, &mut lines.leave[axis]);
         }
         for axis in 0..2 {
-            keep(&ray.origin[axis], &mut lines.origin[3 + axis]);
-            keep(&ray.direction[axis], &mut lines.direction[3 + axis]);
+            keep_double(&ray.origin[axis], &mut lines.origin[3 + axis]);
+            keep_double(&ray.direction[axis], &mut lines.direction[3 + axis]);
         }
         let from = lanes::<_, u64>(&ray.from);
         lines.from[..from.len()].copy_from_slice(from);
@@ -133,7 +133,7 @@ impl<S: pulp::Simd, const W: usize> Approach<S, W> {
 }
 
 #[inline(always)]
-fn keep<V: pulp::bytemuck::Pod>(value: &[V], kept: &mut [f64; MOST_RAYS]) {
+fn keep_double<V: pulp::bytemuck::Pod>(value: &[V], kept: &mut [f64; MOST_RAYS]) {
     let value = lanes::<_, f64>(value);
     kept[..value.len()].copy_from_slice(value);
 }

@@ -63,7 +63,11 @@ pub(super) struct Run<'a> {
 
 /// Computes runs of paths, one after another. Sets `values[k][path]` to the path's k-th output: by
 /// channel the counts and, if there are more than three columns, the colours.
-pub(super) fn run<C: NativeOracle>(set: InstructionSet, runs: &[Run<'_>], values: &mut [Vec<i64>]) {
+pub(super) fn compute_runs<C: NativeOracle>(
+    set: InstructionSet,
+    runs: &[Run<'_>],
+    values: &mut [Vec<i64>],
+) {
     #[cfg(target_arch = "x86_64")]
     if set == InstructionSet::Avx512
         && let Some(simd) = pulp::x86::V4::try_new()

@@ -61,7 +61,7 @@ impl OracleMachine {
                 read(rows);
                 run(1 + parts.flips.len(), rows);
             }
-            Some(streamed) => streamed.run(cancel, gates, (rows, templates), read)?,
+            Some(streamed) => streamed.run_templates(cancel, gates, (rows, templates), read)?,
         }
         let mut hits = block.hits.chunks(lanes);
         let shares = rows.iter().zip(block.ids.chunks(lanes)).enumerate();
@@ -77,7 +77,7 @@ impl OracleMachine {
 impl Streamed {
     /// Lowers the program and runs its gates, some at a time. Calls `read` between compute and
     /// uncompute.
-    fn run(
+    fn run_templates(
         &self,
         cancel: Option<&AtomicBool>,
         gates: &Gates,

@@ -1,6 +1,6 @@
 //! The material libraries of a mesh: the albedos and radiances of their materials.
 
-use super::{Library, ObjError, name, numbers, split, statements, text_of, words};
+use super::{Library, ObjError, name, numbers, split, statements, text_of, tokens};
 use crate::scene::Rgb;
 use crate::scene::meshes::ObjMaterial;
 use crate::syntax::{MeshFile, nearest};
@@ -149,7 +149,7 @@ fn set(material: Option<&mut Material>, keyword: &str, rest: &str) -> Result<(),
 /// Reads `r g b`, or one number for grey.
 fn colour(keyword: &str, rest: &str) -> Result<Rgb, MeshFile> {
     let keyword = keyword.to_owned();
-    if let Some(space @ ("spectral" | "xyz")) = words(rest).next() {
+    if let Some(space @ ("spectral" | "xyz")) = tokens(rest).next() {
         let space = space.to_owned();
         return Err(MeshFile::NotRgb { keyword, space });
     }

@@ -1,6 +1,6 @@
 //! Checks an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{Faces, ObjError, name, numbers, split, statements, words};
+use super::{Faces, ObjError, name, numbers, split, statements, tokens};
 use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
@@ -143,12 +143,12 @@ impl<'a> Scanner<'a> {
         if self.counts[0] > most as i64 {
             return Err(MeshFile::ManyVertices { most });
         }
-        self.hand_on("v", words(rest).take(kept));
+        self.hand_on("v", tokens(rest).take(kept));
         Ok(())
     }
 
     fn face(&mut self, line: usize, rest: &str) -> Result<(), MeshFile> {
-        let count = words(rest).count();
+        let count = tokens(rest).count();
         if count < 3 {
             return Err(MeshFile::FewCorners { count });
         }
@@ -161,10 +161,10 @@ impl<'a> Scanner<'a> {
             let most = self.most.most;
             return Err(MeshFile::ManyTriangles { most });
         }
-        for corner in words(rest) {
+        for corner in tokens(rest) {
             self.corner(line, corner)?;
         }
-        self.hand_on("f", words(rest));
+        self.hand_on("f", tokens(rest));
         self.faces.push((line, material));
         Ok(())
     }
@@ -224,6 +224,6 @@ fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f
         keyword: keyword.to_owned(),
         least,
         most,
-        given: words(rest).count(),
+        given: tokens(rest).count(),
     })
 }

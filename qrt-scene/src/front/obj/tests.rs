@@ -22,7 +22,7 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<ObjMesh, ObjError> {
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
         !files.is_empty(),
-        Faces::of(MOST_FACES),
+        Faces::new(MOST_FACES),
         &mut library,
     )
 }
@@ -217,7 +217,7 @@ fn faces_take_the_materials_of_their_libraries() {
 #[track_caller]
 fn refused(result: Result<ObjMesh, ObjError>, code: &str, line: Option<usize>, words: &str) {
     let error = result.expect_err(words);
-    let told = error.what.words();
+    let told = error.what.description();
     assert_eq!((told.code, error.line), (code, line), "{error}");
     let text = format!("{error} | {}", told.help.unwrap_or_default());
     assert!(text.contains(words), "{text}");
@@ -513,7 +513,7 @@ fn entries_that_name_one_file_share_its_mesh() {
         } else {
             let problems = crate::valid::validate(scene.clone(), &meshes).unwrap_err();
             assert_eq!(problems.len(), 5000);
-            assert_eq!(problems[4999].words().label, "two.obj:11");
+            assert_eq!(problems[4999].description().label, "two.obj:11");
         }
     }
     // The file was not read, and validation does not read it.
@@ -590,7 +590,7 @@ proptest! {
         wants in any::<bool>(),
     ) {
         let mut library = |_: &Path| Ok(mtl.clone().into());
-        match parse(Path::new("mesh.obj"), &obj, wants, Faces::of(MOST_FACES), &mut library) {
+        match parse(Path::new("mesh.obj"), &obj, wants, Faces::new(MOST_FACES), &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {
@@ -604,7 +604,7 @@ proptest! {
                 }
             }
             // The reader behind the scan accepts everything that the scan passes on.
-            Err(error) => prop_assert_ne!(error.what.words().code, "QRT0344", "{}", error),
+            Err(error) => prop_assert_ne!(error.what.description().code, "QRT0344", "{}", error),
         }
     }
 }

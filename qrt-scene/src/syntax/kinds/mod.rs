@@ -66,7 +66,7 @@ macro_rules! problems {
         impl $concept {
             /// Returns the problem in words, for the author of a scene's text.
             #[allow(unused_variables, clippy::useless_format)]
-            pub fn words(&self) -> super::Words {
+            pub fn description(&self) -> super::Words {
                 match self {
                     $( Self::$problem $({ $($argument),* })? => super::Words {
                         code: code!($code),
@@ -95,15 +95,15 @@ macro_rules! what {
 
         impl What {
             /// Returns the problem in words, for the author of a scene's text.
-            pub fn words(&self) -> Words {
+            pub fn description(&self) -> Words {
                 match self {
-                    $( Self::$concept(what) => what.words(), )*
+                    $( Self::$concept(what) => what.description(), )*
                     Self::OfFile { what, place } => Words {
                         label: place.clone(),
-                        ..what.words()
+                        ..what.description()
                     },
                     Self::OrAuto(what) => {
-                        let mut words = what.words();
+                        let mut words = what.description();
                         words.help.get_or_insert_with(|| "or write `auto`".to_owned());
                         words
                     }
@@ -150,7 +150,7 @@ impl fmt::Display for Words {
 /// Writes the problem and the suggested fix in one line.
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
+        self.description().fmt(f)
     }
 }
 

@@ -55,8 +55,8 @@ pub(super) fn check(
     };
     let known: Vec<&Expr> = values.iter().filter(of_directions).collect();
     let all_known = known.len() == values.len();
-    let asked = Asked::of(&known);
-    let both = (asked.everywhere && !all_known).then(|| Asked::of(&[]));
+    let asked = Asked::from_values(&known);
+    let both = (asked.everywhere && !all_known).then(|| Asked::from_values(&[]));
     let mut asked = [Some(asked), both].into_iter().flatten();
     asked.find_map(|asked| compared(map, projected_jacobian, cells, &asked))
 }
@@ -78,7 +78,7 @@ fn compared(
             finer = cells_of(map, projected_jacobian, points);
             &finer
         };
-        let covered = Covered::of(cells, asked);
+        let covered = Covered::from_cells(cells, asked);
         let Some(found) = covered.worst(asked) else {
             return Some(Problem::new(path, Bsdf::OnlyBelow));
         };
@@ -168,7 +168,7 @@ struct Asked {
 impl Asked {
     /// Creates the integrand of values that depend on directions alone. It is constant if none of
     /// them reflects light.
-    fn of(known: &[&Expr]) -> Self {
+    fn from_values(known: &[&Expr]) -> Self {
         let mut rows: Vec<f64> = (0..=ROWS)
             .map(|row| {
                 let z = 2.0 * row as f64 / ROWS as f64 - 1.0;
@@ -284,7 +284,7 @@ struct Covered {
 }
 
 impl Covered {
-    fn of(cells: &[Cell], asked: &Asked) -> Self {
+    fn from_cells(cells: &[Cell], asked: &Asked) -> Self {
         let mut places = vec![0.0; PLACES];
         let mut sides = [0.0; 2];
         for &Cell { z, turn, area } in cells {

@@ -1,7 +1,7 @@
 //! Checks a stated density of directions against the map that samples them.
 
-use super::light::undefined_part;
 use super::shape::{points, solid_angle};
+use super::undefined::undefined_part;
 use crate::expr::{Expr, Variable, Variables};
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
 use std::f64::consts::TAU;

@@ -1,6 +1,6 @@
 //! Checks of a map and its Jacobian at points of the square.
 
-use super::light::undefined_part;
+use super::undefined::undefined_part;
 use crate::expr::{Expr, Variable, Variables};
 use crate::sampling::maps;
 use crate::syntax::{Bsdf, Mistake, Path, Problem};
@@ -43,7 +43,7 @@ pub(super) fn points() -> impl Iterator<Item = Variables> {
 struct Slopes([[Expr; 2]; 3]);
 
 impl Slopes {
-    fn of(map: &[Expr; 3]) -> Self {
+    fn from_map(map: &[Expr; 3]) -> Self {
         Self(map.each_ref().map(|c| Variable::SQUARE.map(|v| c.diff(v))))
     }
 
@@ -57,7 +57,7 @@ impl Slopes {
 /// collapse to a line.
 pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
-    let slopes = Slopes::of(map);
+    let slopes = Slopes::from_map(map);
     let mut room = Vec::new();
     let mut flat = Vec::new();
     for at in points() {
@@ -106,7 +106,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
 
 /// Returns the map's Jacobian as a function of the point: the solid angle per unit of the square.
 pub(super) fn solid_angle(map: &[Expr; 3]) -> impl Fn(&Variables) -> f64 {
-    let slopes = Slopes::of(map);
+    let slopes = Slopes::from_map(map);
     move |at| {
         let [along_u, along_v] = slopes.at(at, &mut Vec::new());
         along_u.cross(along_v).length()

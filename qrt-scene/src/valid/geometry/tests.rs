@@ -156,7 +156,7 @@ proptest! {
             translate,
         };
         let expected = turn * (DVec3::from(point) * scale) + translate;
-        let found = Transform::of(&mesh).apply(point.into());
+        let found = Transform::from_mesh(&mesh).apply(point.into());
         prop_assert!(found.distance(expected) < 1e-11 * (1.0 + expected.length()));
     }
 }

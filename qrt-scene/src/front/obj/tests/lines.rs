@@ -151,8 +151,8 @@ proptest! {
         match (plain, mixed) {
             (Ok(plain), Ok(mixed)) => prop_assert_eq!(plain.faces, mixed.faces),
             (Err(plain), Err(mixed)) => prop_assert_eq!(
-                (plain.line, plain.what.words()),
-                (mixed.line, mixed.what.words())
+                (plain.line, plain.what.description()),
+                (mixed.line, mixed.what.description())
             ),
             (plain, mixed) => prop_assert!(false, "{plain:?}, but {mixed:?}"),
         }
