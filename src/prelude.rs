@@ -107,8 +107,8 @@ pub use qrt_core::oracle::paths::PathScene;
 /// // Under the seed 1, in the left column, which the lamp leaves dark, and in the right one.
 /// let dark: BoundProgram = oracle.program_at(1, [0, 0]);
 /// let lit = oracle.program_at(1, [1, 0]);
-/// assert_eq!(run_paths::on_fixed(&dark, 0..4)?, [[0, 0, 0]; 4]);
-/// assert_eq!(run_paths::on_gates(&lit, 0..4)?, [[1024, 1024, 0]; 4]);
+/// assert_eq!(dark.pixel(), [0, 0]);
+/// assert_ne!(dark.instructions, lit.instructions);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_core::oracle::{BoundProgram, Oracle};
@@ -164,7 +164,7 @@ pub use qrt_core::oracle::{Marks, Predicate};
 /// # Ok::<(), EstimatorError>(())
 /// ```
 pub use qrt_counting::estimators::AmplitudeEstimator;
-/// Runs one path step by step, and compiles code for many paths.
+/// Runs one path step by step.
 ///
 /// ```
 /// use qrt::prelude::*;
@@ -185,14 +185,8 @@ pub use qrt_counting::estimators::AmplitudeEstimator;
 /// let red = Glow::within(&mut state, &id, |state, path| state.operand(path.counts()[0]));
 /// assert_eq!(red, 1024);
 /// state.clean()?;
-///
-/// fn picture<C: NativeOracle>() -> Result<Rendered, RenderError> {
-///     render_compiled::<C>(&Options { model: Model::Fixed, ..Options::default() })
-/// }
-/// assert_eq!(picture::<Glow>()?.image.pixels.len(), 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-/// Predicates on the paths of a scene: counts and renders those that satisfy them.
 pub use qrt_machines::State;
 /// Runs programs on each machine: see [the module](run).
 ///
@@ -245,8 +239,53 @@ pub use qrt_macros::{qrt, reversible};
 pub use qrt_runtime::image::{
     Encoding, Image, ImageError, Metadata, save, write_counts, write_counts_to, write_to,
 };
+/// Runs the program of one pixel on each machine: the good comparators of each path, by channel.
+///
+/// ```
+/// use qrt::core::oracle;
+/// use qrt::prelude::*;
+/// use qrt::scene::Emitter;
+///
+/// let scene = Scene::builder("glow")
+///     .film(2, 2)
+///     .path_bits(2)
+///     .depth(1)
+///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3] })
+///     .quad("lamp", [[0., -9., 0.], [9., -9., 0.], [9., 9., 0.], [0., 9., 0.]])
+///     .build();
+/// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::Options::default())?;
+/// // The lamp fills the right column and leaves the left one dark.
+/// assert_eq!(run_paths::on_fixed(&oracle.program_at(1, [0, 0]), 0..4)?, [[0, 0, 0]; 4]);
+/// assert_eq!(run_paths::on_gates(&oracle.program_at(1, [1, 0]), 0..4)?, [[1024, 1024, 0]; 4]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub use qrt_runtime::path_machines::run_paths;
+/// Code for many paths, and the start of one.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// qrt! {
+///     scene Glow {
+///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+///         film: 2 x 2,
+///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
+///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
+///         sampling { path_bits: 2 },
+///         depth primary { bits: (2, 2) },
+///     }
+/// }
+///
+/// fn picture<C: NativeOracle>() -> Result<Rendered, RenderError> {
+///     render_compiled::<C>(&Options { model: Model::Fixed, ..Options::default() })
+/// }
+/// assert_eq!(picture::<Glow>()?.image.pixels.len(), 4);
+/// let (state, index) = <State as PathState>::path::<Glow>(0, [1, 0], 3)?;
+/// assert_eq!(state.bits(&index), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub use qrt_runtime::path_machines::{NativeOracle, PathState};
+/// Predicates on the paths of a scene: counts and renders those that satisfy them.
 ///
 /// ```
 /// use qrt::prelude::*;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod architecture {
+    mod no_circles_of_files;
     mod rooms_import_downwards;
     mod the_prelude_has_examples;
 }

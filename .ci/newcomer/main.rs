@@ -1,4 +1,4 @@
-//! What a newcomer writes first: a scene from a YAML file, compiled, and its picture both ways.
+//! A newcomer's first program: a scene from a YAML file, compiled, and its picture both ways.
 
 use qrt::prelude::*;
 use qrt::runtime::image::ImageError;

@@ -83,6 +83,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "double",
             "error",
             "kernel",
+            "phase",
             "angle",
             "distribution",
             "binomial",
@@ -199,7 +200,7 @@ fn imports(folder: &Path) -> BTreeMap<String, BTreeSet<(String, PathBuf)>> {
 }
 
 /// Collects all Rust files of a folder except for tests.
-fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
+pub(super) fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_stem().unwrap();
@@ -215,7 +216,7 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// Returns a source without comments and without the text of literals.
-fn code(source: &str) -> String {
+pub(super) fn code(source: &str) -> String {
     let mut code = String::new();
     let mut rest = source;
     while let Some(first) = rest.chars().next() {
@@ -254,7 +255,7 @@ fn quoted(text: &str, quote: char) -> usize {
 }
 
 /// Returns code without the items behind `#[cfg(test)]`.
-fn without_tests(code: &str) -> String {
+pub(super) fn without_tests(code: &str) -> String {
     let mut parts = code.split("#[cfg(test)]");
     let mut kept = parts.next().unwrap().to_owned();
     for part in parts {

@@ -196,7 +196,10 @@ fn every_code_is_shown_by_some_scene() {
 
 #[test]
 fn every_code_in_the_source_is_in_the_table() {
-    let mut folders = vec![PathBuf::from("qrt-core/src")];
+    let mut folders = vec![
+        PathBuf::from("qrt-scene/src"),
+        PathBuf::from("qrt-core/src"),
+    ];
     let mut found = std::collections::BTreeSet::new();
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {

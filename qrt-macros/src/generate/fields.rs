@@ -54,7 +54,7 @@ pub(super) fn write(
     let _ = writeln!(
         out,
         "{conditions}
-        /// Where the numbers of a path of [`{scene}`] are among its registers.
+        /// Registers of the numbers of a path of [`{scene}`].
         #[derive(Clone, Copy, Debug)]
         #[allow(dead_code, reason = \"an author reads some of them only\")]
         {public} struct {scene}Layout {{ {fields} }}"

@@ -102,7 +102,7 @@ fn text(
         let _ = writeln!(
             out,
             "impl __Scene {{
-                /// Where the numbers of a path are among its registers, ray by ray.
+                /// Registers of the numbers of a path, ray by ray.
                 {public} const LAYOUT: {scene}Layout = {layout};
             }}"
         );

@@ -119,7 +119,7 @@ pub struct LampRay1 {
     pub origin_x: ::qrt::core::oracle::compiled::Field<Lamp, ::qrt::circuit::format::UFixed<-4, 6>>,
 }
 
-/// Where the numbers of a path of [`Lamp`] are among its registers.
+/// Registers of the numbers of a path of [`Lamp`].
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code, reason = "an author reads some of them only")]
 pub struct LampLayout {
@@ -153,7 +153,7 @@ const _: () = {
             Integers, NativeOracle, Truths, Vectors, block, word,
         };
         impl __Scene {
-            /// Where the numbers of a path are among its registers, ray by ray.
+            /// Registers of the numbers of a path, ray by ray.
             pub const LAYOUT: LampLayout = LampLayout {
                 ray0: LampRay0 {
                     sample_u: Field::<__Scene, ::qrt::circuit::format::UInt<1>>::new(
