@@ -1,7 +1,7 @@
 //! The syntax tree that every front end builds from its text, with the place of each node.
 //!
 //! YAML text and the tokens of the `qrt!` macro both become a tree of this type. Everything after
-//! it (the decoder of [`crate::scene`], the checks of [`crate::valid`], the rendering of errors) is
+//! it (the decoder of [`crate::Scene`], the checks of [`crate::valid`], the rendering of errors) is
 //! shared.
 
 use super::path::{Path, Step};

@@ -1,6 +1,6 @@
 //! Validation: turns a `Scene` into a [`ValidScene`], or reports all errors at once.
 //!
-//! The range of each value is part of its definition in [`crate::scene`]. This module checks the
+//! The range of each value is part of its definition in [`crate::Scene`]. This module checks the
 //! ranges, and relations between values: names are defined, primitives have an area, path indices
 //! fit into a word.
 

@@ -143,14 +143,14 @@ const _: () = {
         use ::qrt::core::oracle::compiled::{
             BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
         };
+        use ::qrt::core::tracer::{Named, Quantity};
+        use ::qrt::runtime::path_machines::native::{
+            Integers, NativeOracle, Truths, Vectors, block, word,
+        };
         use ::qrt::scene::sampling::{
             Axis::{U, V},
             Coordinate,
             Square::{Light, Ray},
-        };
-        use ::qrt::core::tracer::{Named, Quantity};
-        use ::qrt::runtime::path_machines::native::{
-            Integers, NativeOracle, Truths, Vectors, block, word,
         };
         impl __Scene {
             /// Registers of the numbers of a path, ray by ray.
