@@ -154,8 +154,8 @@ pub fn estimator(
 /// A problem or a setting out of range.
 ///
 /// ```
+/// use qrt_counting::{estimators::{Problem, estimate}, random::Stream};
 /// use qrt_scene::{Counting, Estimator, Window};
-/// use qrt_runtime::{estimators::{Problem, estimate}, random::Stream};
 /// let counting = Counting {
 ///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
 ///     strata: None, error: None,
