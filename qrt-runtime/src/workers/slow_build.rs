@@ -99,6 +99,8 @@ fn note(duration: Duration) -> String {
     format!(
         "note: qrt is compiled without optimisation, so this job will take about {} s.\n\
          In the Cargo.toml of your workspace, this makes it many times faster:\n\
+         \n    [profile.dev.package.qrt-counting]\n    opt-level = 3\n\
+         \n    [profile.dev.package.qrt-machines]\n    opt-level = 3\n\
          \n    [profile.dev.package.qrt-runtime]\n    opt-level = 3\n\n\
          (`Options {{ quiet: true, .. }}` suppresses this note.)\n",
         duration.as_secs()
@@ -184,6 +186,8 @@ mod tests {
         let note = note(75 * SECOND);
         for part in [
             "about 75 s",
+            "[profile.dev.package.qrt-counting]",
+            "[profile.dev.package.qrt-machines]",
             "[profile.dev.package.qrt-runtime]",
             "opt-level = 3",
             "quiet: true",
