@@ -1,4 +1,4 @@
-//! Materials, primitives and rays: the entries that a scene has many of.
+//! Parsers of the entries that a scene may have several of: materials, primitives and rays.
 
 use super::body::{Body, Origin};
 use super::tokens::{Token, join};
