@@ -89,7 +89,7 @@ pub use qrt_core::oracle::compiled::CompiledOracle;
 /// assert_eq!(faces::<Glow>(), 1);
 /// ```
 pub use qrt_core::oracle::paths::PathScene;
-/// A scene's circuit, compiled at run time, the program of one pixel, and its paths on each machine.
+/// A scene's circuit, compiled at run time, and the program of one pixel.
 ///
 /// ```
 /// use qrt::core::oracle;

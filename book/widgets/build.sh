@@ -37,7 +37,8 @@ is_new() {
     [ -f "$dist/qrt_$name.wasm" ] || return 1
   done
   [ -z "$(
-    find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-runtime" \
+    find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-counting" \
+      "$root/qrt-machines" "$root/qrt-runtime" "$root/qrt-scene" \
       "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
       -type f -newer "$dist/qrt_${figures[-1]}.wasm" -print -quit
   )" ]

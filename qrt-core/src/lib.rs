@@ -1,4 +1,4 @@
-//! Front end, checks, path tracer and compiler: from a scene to the oracle that the machines run.
+//! Path tracer and compiler: from a checked scene to the oracle that the machines run.
 
 #![forbid(unsafe_code)]
 

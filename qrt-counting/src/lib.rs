@@ -2,7 +2,7 @@
 //!
 //! The Grover operator acts in the plane of the good and the bad indices, where it rotates by
 //! `theta` turns, `theta = asin(sqrt(S/N))/pi`. The distribution of its phase estimation depends
-//! only on S, N and the phase register. This module draws from that distribution exactly, without a
+//! only on S, N and the phase register. This crate draws from that distribution exactly, without a
 //! state vector, for registers of up to 40 bits.
 //!
 //! * [`PhaseDistribution`]: `P(theta~ | theta)`, rectangular and sine window, and draws from it;

@@ -134,19 +134,6 @@ impl InstructionSet {
     }
 }
 
-/// Runs `work` in registers of at most 256 bits. Eight single-precision or four double-precision
-/// numbers fill them. Half-filled wider registers would be loaded through a mask and divided at
-/// half the speed.
-#[inline(always)]
-pub fn at_256_bits<S: pulp::Simd, W: WithSimd>(simd: S, work: W) -> W::Output {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(v4) = super::masks::same(&simd) {
-        let v4: &pulp::x86::V4 = v4;
-        return work.with_simd(**v4);
-    }
-    work.with_simd(simd)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -29,7 +29,6 @@
 mod fixed;
 mod gates;
 mod instructions;
-pub mod masks;
 pub mod run;
 mod span;
 mod state;
@@ -38,6 +37,6 @@ mod transpose;
 
 pub use fixed::{Extremes, Fixed, Lanes, contents};
 pub use gates::{Dirty, Gates, InvalidGate, Queue, Rows, Template};
-pub use instructions::{InstructionSet, InstructionsError, at_256_bits};
-pub use span::{Span, part_of_spans};
+pub use instructions::{InstructionSet, InstructionsError};
+pub use span::Span;
 pub use state::{State, Unclean};

@@ -56,7 +56,11 @@ impl State {
     }
 
     /// A state of the registers that `recorder` has declared. Each of `inputs` holds the lowest bits of the
-    /// number beside it, and `parameters` are the classical parameters.
+    /// number beside it, and `parameters` are the classical parameters. Instructions that `recorder` has
+    /// recorded are not run.
+    ///
+    /// # Panics
+    /// If another recorder made one of the registers.
     pub fn with_inputs(
         recorder: Recorder,
         inputs: &[(&Recorded, u64)],
@@ -69,7 +73,8 @@ impl State {
         };
         state.declared();
         for (register, bits) in inputs {
-            state.contents.registers[register.id().index()] = lowest(*bits, register.width());
+            let place = state.recorder.own(register).index();
+            state.contents.registers[place] = lowest(*bits, register.width());
         }
         state
     }

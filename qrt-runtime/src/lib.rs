@@ -1,4 +1,4 @@
-//! Machines, quantum counting and rendering.
+//! Path machines, rendering, pictures and files.
 pub mod checkpoint;
 pub mod disk;
 pub mod draw;

@@ -65,7 +65,6 @@ const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-machines/src",
         &[
-            "masks",
             "instructions",
             "span",
             "transpose",

@@ -241,8 +241,9 @@ pub(super) fn strategy_of(scene: &ValidScene) -> Result<Strategy, OracleError> {
         return Ok(strategy);
     }
     let all = Strategy::all();
-    if let Some(&number) = scene.strategy_cache().get() {
-        return Ok(all[number]);
+    let cached = scene.strategy_cache().get();
+    if let Some(strategy) = cached.and_then(|&number| all.get(number)) {
+        return Ok(*strategy);
     }
     let strategy = auto(scene)?;
     if let Some(number) = all.iter().position(|one| *one == strategy) {

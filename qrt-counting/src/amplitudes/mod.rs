@@ -11,6 +11,7 @@
 //!
 //! All give the distribution of folded outcomes, `y = 0 ..= T/2`.
 
+mod fourier;
 mod reduced;
 mod subspace;
 #[cfg(test)]
@@ -29,7 +30,18 @@ pub enum AmplitudesError {
     /// S and N are no counts.
     #[error(transparent)]
     Counts(#[from] CountingError),
-    /// A truth table or a phase register of a size that the model does not take, or too little memory.
+    /// A truth table whose number of entries is not a power of two.
+    #[error("a truth table of {0} entries, not a power of two")]
+    TableSize(usize),
+    /// A phase register with too many amplitudes to compute.
+    #[error("amplitudes of a phase register of {bits} bits; at most {most}")]
+    PhaseBits {
+        /// The phase register's qubits.
+        bits: u32,
+        /// The most qubits of a phase register that is computed.
+        most: u32,
+    },
+    /// There is too little memory for the amplitudes.
     #[error(transparent)]
     StateVector(#[from] StateVectorError),
 }

@@ -8,11 +8,12 @@
 //! time and `O(T + N)` memory.
 
 use super::AmplitudesError;
+use super::fourier::Fourier;
 use super::subspace::window;
 use pulp::{Simd, WithSimd};
 use qrt_circuit::quantum::Window;
 use qrt_machines::InstructionSet;
-use qrt_machines::statevector::{Fourier, StateVectorError, filled, fold};
+use qrt_machines::statevector::{StateVectorError, filled, fold};
 use rayon::prelude::*;
 
 /// Number of transforms at once. Each has two indices: one is the real part, one the imaginary
@@ -47,14 +48,13 @@ const PARTS: usize = 32;
 /// If the table's size is not a power of two, or the phase register is not in 1 to 20 bits.
 pub fn reduced(good: &[bool], phase_bits: u32, shape: Window) -> Result<Vec<f64>, AmplitudesError> {
     if !good.len().is_power_of_two() {
-        return Err(StateVectorError::TableSize(good.len()).into());
+        return Err(AmplitudesError::TableSize(good.len()));
     }
     if !(1..=MOST_PHASE_BITS).contains(&phase_bits) {
-        return Err(StateVectorError::PhaseBits {
+        return Err(AmplitudesError::PhaseBits {
             bits: phase_bits,
             most: MOST_PHASE_BITS,
-        }
-        .into());
+        });
     }
     let size = 1 << phase_bits;
     let set = InstructionSet::widest();

@@ -7,9 +7,10 @@
 //! is exact from S and N.
 
 use super::AmplitudesError;
+use super::fourier::Fourier;
 use crate::{Double, check_counts};
 use qrt_circuit::quantum::Window;
-use qrt_machines::statevector::{Fourier, StateVectorError, filled, fold};
+use qrt_machines::statevector::{StateVectorError, filled, fold};
 use std::f64::consts::PI;
 
 /// Most bits of a phase register whose amplitudes are listed.
@@ -37,11 +38,10 @@ pub fn subspace(
 ) -> Result<Vec<f64>, AmplitudesError> {
     check_counts(good, total)?;
     if !(1..=MOST_PHASE_BITS).contains(&phase_bits) {
-        return Err(StateVectorError::PhaseBits {
+        return Err(AmplitudesError::PhaseBits {
             bits: phase_bits,
             most: MOST_PHASE_BITS,
-        }
-        .into());
+        });
     }
     let size = 1_usize << phase_bits;
     // To 100 bits, because the phase of G^(2^k) has 2^k times the error of the phase of G.

@@ -182,14 +182,14 @@ fn what_an_oracle_leaves_behind_is_found() {
 
 #[test]
 fn sizes_are_refused_by_name() {
-    let size = StateVectorError::TableSize(3).into();
+    let size = AmplitudesError::TableSize(3);
     assert_eq!(reduced(&[true; 3], 4, Window::Rect), Err(size));
     assert_eq!(
         reduced(&[], 4, Window::Rect),
-        Err(StateVectorError::TableSize(0).into())
+        Err(AmplitudesError::TableSize(0))
     );
     for bits in [0, 25] {
-        let expected = |most| Err(StateVectorError::PhaseBits { bits, most }.into());
+        let expected = |most| Err(AmplitudesError::PhaseBits { bits, most });
         assert_eq!(reduced(&[true], bits, Window::Rect), expected(20));
         assert_eq!(subspace(1, 2, bits, Window::Rect), expected(24));
     }

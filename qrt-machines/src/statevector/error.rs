@@ -60,17 +60,6 @@ pub enum StateVectorError {
         /// The probability that one of the ancillas is read as 1.
         probability: f64,
     },
-    /// A truth table whose number of entries is not a power of two.
-    #[error("a truth table of {0} entries, not a power of two")]
-    TableSize(usize),
-    /// A phase register with too many amplitudes to compute.
-    #[error("amplitudes of a phase register of {bits} bits; at most {most}")]
-    PhaseBits {
-        /// The phase register's qubits.
-        bits: u32,
-        /// The most qubits of a phase register that is computed.
-        most: u32,
-    },
     /// The circuit cannot be made.
     #[error(transparent)]
     Circuit(#[from] QuantumError),

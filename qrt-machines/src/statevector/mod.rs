@@ -15,7 +15,6 @@
 mod count;
 mod dense;
 mod error;
-mod fourier;
 mod sparse;
 #[cfg(test)]
 mod tests;
@@ -23,7 +22,6 @@ mod tests;
 pub use count::{Checks, Counted, Report, count, counting_of, fold};
 pub use dense::Dense;
 pub use error::{StateVectorError, filled};
-pub use fourier::Fourier;
 pub use sparse::Sparse;
 
 use qrt_circuit::Qubit;

@@ -4,9 +4,9 @@
 //! fused multiply-add) or a function of the `libm` crate, so that AVX-512, AVX2, NEON and plain
 //! code give the same bits.
 
+use crate::path_machines::masks::bits;
 use pulp::bytemuck;
 use qrt_core::tracer::{Arith, Coordinate, Sampled, Segment, Work};
-use qrt_machines::masks::bits;
 use qrt_scene::expr::Function;
 use qrt_scene::sampling::cell_centre;
 use std::cell::RefCell;

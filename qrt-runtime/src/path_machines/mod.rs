@@ -8,6 +8,7 @@
 
 mod bvh;
 mod lanes;
+mod masks;
 pub mod native;
 mod nearest;
 mod oracle;

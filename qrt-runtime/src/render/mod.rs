@@ -161,8 +161,8 @@ pub struct Options<'a> {
     pub resume: bool,
     /// Suppresses the note on standard error that qrt is compiled without optimisation. Without it,
     /// the first picture or count of a process that is expected to take ten seconds or more prints
-    /// that note, with the lines of Cargo.toml that help. Builds that optimise `qrt-runtime` print
-    /// nothing.
+    /// that note, with the lines of Cargo.toml that help. Builds that optimise `qrt-runtime`, as
+    /// these lines do, print nothing.
     pub quiet: bool,
 }
 

@@ -8,7 +8,8 @@ mod overlap;
 mod plane;
 mod solid;
 
-pub use overlap::{Outlines, fill_once, overlap};
+pub(crate) use overlap::overlap;
+pub use overlap::{Outlines, fill_once};
 pub use plane::{Overlap, first_overlap};
 pub use solid::{Solid, solids};
 
@@ -42,7 +43,7 @@ pub fn main_axis(normal: DVec3) -> usize {
 }
 
 /// The least and the greatest coordinates of `points`.
-pub fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+pub(crate) fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
         (low.min(*p), high.max(*p))
     })

@@ -238,7 +238,7 @@ fn turns_once(outline: &[DVec2], left: bool) -> bool {
 
 /// True if two convex polygons of one plane have a region in common that is wider than `width` across each
 /// of their edges.
-pub fn overlap(a: &[DVec3], b: &[DVec3], width: f64) -> bool {
+pub(crate) fn overlap(a: &[DVec3], b: &[DVec3], width: f64) -> bool {
     let apart = |a: &[DVec3], b: &[DVec3]| {
         let normal = (a[1] - a[0]).cross(a[2] - a[0]).normalize();
         (0..a.len()).any(|k| {

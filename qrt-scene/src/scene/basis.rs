@@ -49,14 +49,14 @@ impl Basis {
     }
 
     /// Half the film's width and height: at distance 1, or in scene units.
-    pub fn half_film(&self, film: Film) -> DVec2 {
+    pub(crate) fn half_film(&self, film: Film) -> DVec2 {
         let aspect = f64::from(film.width) / f64::from(film.height);
         DVec2::new(self.half * aspect, self.half)
     }
 
     /// Returns the coordinates of `point` in the camera's frame: right of the eye, above it, and
     /// before it.
-    pub fn coordinates(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn coordinates(&self, point: DVec3) -> DVec3 {
         let v = point - self.eye;
         DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))
     }

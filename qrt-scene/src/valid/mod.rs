@@ -130,6 +130,7 @@ impl ValidScene {
     }
     /// A cache for the number of the strategy that `uncompute: auto` chooses. The compiler fills it, since
     /// the choice takes a search.
+    #[doc(hidden)]
     pub fn strategy_cache(&self) -> &OnceLock<usize> {
         &self.auto
     }
@@ -141,9 +142,9 @@ impl ValidScene {
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
-    /// Returns the polygons of a primitive, as a range of [`ValidScene::polygons`]: one, or two of
-    /// a quad that is not planar, or all of a mesh. The range is empty if there is no primitive of
-    /// that number.
+    /// Returns the polygons of a primitive, as a range of [`ValidScene::polygons`]: one; two of a
+    /// quad that is not planar, or of a sampled lamp that is no parallelogram; or all of a mesh. The
+    /// range is empty if there is no primitive of that number.
     pub fn polygons_of(&self, primitive: usize) -> std::ops::Range<usize> {
         let end = self.polygons.len();
         let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);

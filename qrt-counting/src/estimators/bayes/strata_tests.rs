@@ -132,7 +132,7 @@ fn intervals_of_strata_hold_the_amplitude() {
     intervals_hold(100, &[15, 255], &[None, Some(2), Some(4)]);
 }
 
-/// Run it with `cargo test -p qrt-runtime --lib ten_thousand -- --ignored`; `.ci/run` does not.
+/// Run it with `cargo test -p qrt-counting --lib ten_thousand -- --ignored`; `.ci/run` does not.
 #[test]
 #[ignore = "ten thousand runs of every kind take more than eight minutes"]
 fn intervals_of_strata_hold_the_amplitude_ten_thousand_times() {

@@ -247,7 +247,7 @@ fn threads_change_no_bit() {
 fn measuring_leaves_what_was_read() {
     let mut counts = [0_u64; 4];
     for shot in 0..400 {
-        let uniform = Dice(5 + shot).word() as f64 / 2_f64.powi(64);
+        let uniform = (Dice(5 + shot).word() >> 11) as f64 / 2_f64.powi(53);
         // |00> and |11> entangled with a third qubit; amplitudes cos(1/2), sin(1/2).
         let gates = [Owned::Ry(1.0, 0), Owned::Cx(0, 1), Owned::H(2)];
         let mut dense = Dense::new(3).unwrap();

@@ -8,7 +8,7 @@ use super::approach::{Lines, MOST_RAYS};
 use super::walk::{Found, MOST_LANES, NearestFace, Waiting, columns};
 use super::{Bvh, Child, Node, WIDE};
 use crate::path_machines::lanes::Lanes;
-use qrt_machines::masks::bits_of_singles;
+use crate::path_machines::masks::bits_of_singles;
 
 /// Smallest number of rays that form a beam.
 pub(super) const FEW_RAYS: usize = 4;

@@ -4,8 +4,8 @@ use super::FACES;
 use super::approach::{Lines, MOST_RAYS};
 use super::walk::Search;
 use crate::path_machines::lanes::{Lanes, lanes};
+use crate::path_machines::masks::bits;
 use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
-use qrt_machines::masks::bits;
 
 /// Largest number of edges of a face.
 const EDGES: usize = 4;

@@ -7,10 +7,10 @@ use super::large::LargeFace;
 use super::walk::{Blocks, Found, Hides, NearestFace, Waiting};
 use super::{Bvh, Child};
 use crate::path_machines::lanes::{Inputs, Lanes, lanes, slots};
+use crate::path_machines::masks;
+use crate::path_machines::masks::at_256_bits;
 use pulp::WithSimd;
 use qrt_core::tracer::{Arith, Ray, Start, Work};
-use qrt_machines::at_256_bits;
-use qrt_machines::masks;
 
 /// Memory that successive walks reuse.
 #[derive(Debug)]

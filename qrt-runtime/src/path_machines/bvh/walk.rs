@@ -3,7 +3,7 @@
 use super::approach::Lines;
 use super::{Bvh, Child, Node, WIDE};
 use crate::path_machines::lanes::Lanes;
-use qrt_machines::masks::bits_of_singles;
+use crate::path_machines::masks::bits_of_singles;
 
 /// A face that the ray meets: its distance, and its position in the geometry's faces.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,9 @@ use super::parts::Streamed;
 use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
 use qrt_circuit::lower::{self, Templates};
 use qrt_circuit::{Qubit, Word};
+use qrt_machines::Span;
 use qrt_machines::{Gates, Queue, Rows, Template};
-use qrt_machines::{Span, part_of_spans};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Number of gates of a streamed circuit that run together.
@@ -154,4 +155,41 @@ pub(in crate::path_machines) fn check(
         }
     }
     Ok(())
+}
+
+/// Returns the parts of `spans` that lie within `lanes`.
+fn part_of_spans<'a>(spans: &[Span<'a>], lanes: Range<usize>) -> Vec<Span<'a>> {
+    let mut first = 0;
+    let parts = spans.iter().map(|span| {
+        let end = first + span.lanes;
+        let part = first.max(lanes.start)..end.min(lanes.end);
+        first = end;
+        Span {
+            lanes: part.len(),
+            parameters: span.parameters,
+        }
+    });
+    parts.filter(|span| span.lanes > 0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_has_its_lanes_alone() {
+        let words: [&[u64]; 3] = [&[1], &[2], &[3]];
+        let of = |lanes: [usize; 3]| {
+            let spans = lanes.into_iter().zip(words);
+            let spans = spans.filter(|(lanes, _)| *lanes > 0);
+            let spans = spans.map(|(lanes, parameters)| Span { lanes, parameters });
+            spans.collect::<Vec<_>>()
+        };
+        let all = of([3, 4, 1]);
+        assert_eq!(part_of_spans(&all, 0..8), all);
+        assert_eq!(part_of_spans(&all, 0..3), of([3, 0, 0]));
+        assert_eq!(part_of_spans(&all, 2..4), of([1, 1, 0]));
+        assert_eq!(part_of_spans(&all, 4..6), of([0, 2, 0]));
+        assert_eq!(part_of_spans(&all, 6..8), of([0, 1, 1]));
+    }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 /// A transform of `2^bits` values, with precomputed factors.
-pub struct Fourier {
+pub(super) struct Fourier {
     bits: u32,
     /// `exp(-2 pi i k / 2^bits)`, for the first half of k.
     factors: Vec<[f64; 2]>,
@@ -11,7 +11,7 @@ pub struct Fourier {
 
 impl Fourier {
     /// The transform of `2^bits` amplitudes.
-    pub fn new(bits: u32) -> Self {
+    pub(super) fn new(bits: u32) -> Self {
         let size = 1_usize << bits;
         // Each factor is right to an ulp, because its angle counts from the nearest multiple of a
         // quarter turn.
@@ -41,7 +41,7 @@ impl Fourier {
     /// result for y is at [`Fourier::place`]. Real and imaginary parts are separate, and L
     /// transforms run at once.
     #[inline(always)]
-    pub fn transform<const L: usize>(&self, re: &mut [[f64; L]], im: &mut [[f64; L]]) {
+    pub(super) fn transform<const L: usize>(&self, re: &mut [[f64; L]], im: &mut [[f64; L]]) {
         // Decimation in frequency (Gentleman & Sande, 1966): input in order, output in bit-reversed
         // order.
         for level in (0..self.bits).rev() {
@@ -68,7 +68,7 @@ impl Fourier {
     }
 
     /// Position at which the transform leaves the value of y.
-    pub fn place(&self, y: usize) -> usize {
+    pub(super) fn place(&self, y: usize) -> usize {
         y.reverse_bits() >> (usize::BITS - self.bits)
     }
 }

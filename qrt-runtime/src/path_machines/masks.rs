@@ -1,11 +1,11 @@
 //! Truth values of lanes as the bits of a number: the first lane is the lowest bit.
 
-use pulp::Simd;
 use pulp::bytemuck::{self, NoUninit};
+use pulp::{Simd, WithSimd};
 
 /// Returns the lanes in which `mask` is true.
 #[inline(always)]
-pub fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
+pub(super) fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
     #[cfg(target_arch = "x86_64")]
     if let Some(v3) = same(&simd) {
         let v3: &pulp::x86::V3 = v3;
@@ -24,7 +24,7 @@ pub fn bits<S: Simd>(simd: S, mask: S::m64s) -> u32 {
 
 /// Returns the single-precision lanes in which `mask` is true.
 #[inline(always)]
-pub fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
+pub(super) fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
     #[cfg(target_arch = "x86_64")]
     if let Some(v3) = same(&simd) {
         let v3: &pulp::x86::V3 = v3;
@@ -44,7 +44,7 @@ pub fn bits_of_singles<S: Simd>(simd: S, mask: S::m32s) -> u32 {
 /// Returns `value` if it has type `B`, which is known at compile time.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
+fn same<A: 'static, B: 'static>(value: &A) -> Option<&B> {
     (value as &dyn std::any::Any).downcast_ref()
 }
 
@@ -57,4 +57,17 @@ fn short<M: NoUninit>(mask: &M) -> Option<u32> {
         [low, high] => Some(u32::from(u16::from_le_bytes([low, high]))),
         _ => None,
     }
+}
+
+/// Runs `work` in registers of at most 256 bits. Eight single-precision or four double-precision
+/// numbers fill them. Half-filled wider registers would be loaded through a mask and divided at
+/// half the speed.
+#[inline(always)]
+pub(super) fn at_256_bits<S: Simd, W: WithSimd>(simd: S, work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(v4) = same(&simd) {
+        let v4: &pulp::x86::V4 = v4;
+        return work.with_simd(**v4);
+    }
+    work.with_simd(simd)
 }
