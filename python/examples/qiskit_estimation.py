@@ -17,7 +17,7 @@ materials: { lamp: { emitter: { radiance: [1, 0.5, 0.25] } } }
 geometry:
   - quad: { vertices: [[-1, -1, 0], [-0.5, -1, 0], [-0.5, 1, 0], [-1, 1, 0]], material: lamp }
 sampling: { path_bits: 3, depths: [{ bits: [3, 3] }] }
-precision: { fraction: 4 }
+precision: { fraction: 5 }
 comparator: { bits: 1 }
 circuit: { uncompute: scoped }
 """)

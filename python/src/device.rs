@@ -3,14 +3,14 @@
 use crate::errors;
 use pyo3::prelude::*;
 use qrt_circuit::quantum::Window;
-use qrt_counting::estimators::{Device as RuntimeDevice, EstimatorError, Noise, Problem};
+use qrt_counting::estimators::{CountingProblem, Device as RuntimeDevice, EstimatorError, Noise};
 use qrt_counting::random::Stream;
 use std::sync::{Mutex, PoisonError};
 
 /// Runs Grover's iterate on an oracle's indices and measures.
 #[pyclass(frozen, module = "qrt")]
 pub(crate) struct Device {
-    problem: Problem,
+    problem: CountingProblem,
     noise: Noise,
     state: Mutex<State>,
 }
@@ -24,7 +24,7 @@ struct State {
 impl Device {
     /// Creates a device with the random draws of the pixel and the channel (0 red, 1 green, 2 blue) under `seed`.
     pub(crate) fn new(
-        problem: Problem,
+        problem: CountingProblem,
         noise: Noise,
         seed: u64,
         [x, y]: [u32; 2],

@@ -4,6 +4,7 @@ mod device;
 mod errors;
 mod oracle;
 mod picture;
+mod records;
 mod scene;
 mod scene_methods;
 mod work;
@@ -21,5 +22,12 @@ fn _qrt(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::load, module)?)?;
     module.add_function(wrap_pyfunction!(scene::parse, module)?)?;
     module.add_function(wrap_pyfunction!(scene::restore, module)?)?;
-    module.add_function(wrap_pyfunction!(picture::merge, module)?)
+    module.add_function(wrap_pyfunction!(picture::merge, module)?)?;
+    module.add_function(wrap_pyfunction!(records::count, module)?)?;
+    module.add_function(wrap_pyfunction!(records::inspect, module)?)?;
+    module.add_function(wrap_pyfunction!(records::pareto, module)?)?;
+    module.add_function(wrap_pyfunction!(records::plan, module)?)?;
+    module.add_function(wrap_pyfunction!(records::simulate_pixel, module)?)?;
+    module.add_function(wrap_pyfunction!(records::trade_in, module)?)?;
+    module.add_function(wrap_pyfunction!(records::verify, module)?)
 }

@@ -2,21 +2,23 @@
 
 use crate::device::Device;
 use crate::errors;
+use crate::records;
 use crate::scene::Scene;
 use crate::work;
 use numpy::PyArray1;
 use numpy::ndarray::ArrayView1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use qrt_circuit::export::{Export, Format};
+use qrt_circuit::export::{Export, ExportFormat};
 use qrt_circuit::lower::Cost;
-use qrt_circuit::quantum::{Conjunction, Counting, LogicalCounts, Part};
-use qrt_core::inspect::{CHANNELS, Inspection, OraclePixel};
-use qrt_core::oracle::{Oracle as PathOracle, OracleName, check_budget};
-use qrt_counting::estimators::{Noise, NoiseError, Problem};
-use qrt_runtime::memory::{CircuitWork, Memory};
+use qrt_circuit::quantum::{CircuitPart, Conjunction, CountingCircuit, LogicalCounts};
+use qrt_core::inspect::{Inspection, OraclePixel};
+use qrt_core::oracle::{Oracle as PathOracle, OracleName, Oracles, check_budget};
+use qrt_counting::estimators::{CountingProblem, Noise, NoiseError};
+use qrt_lab::physical::{PhysicalError, PictureCounts};
+use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::path_machines::{Defect, OracleMachine};
-use qrt_runtime::physical::{PhysicalError, PictureCounts};
+use qrt_runtime::prepared::PrepareError;
 use qrt_scene::valid::ValidScene;
 use std::sync::{Arc, OnceLock};
 
@@ -53,25 +55,16 @@ impl Oracle {
         seed: u64,
     ) -> PyResult<Self> {
         let pixel = scene.pixel(py, pixel)?;
-        let number = match channel {
-            None => None,
-            Some(name) => {
-                let found = CHANNELS.iter().position(|other| *other == name);
-                let refused =
-                    || errors::request(py, format!("channel={name:?} is none of: r, g, b"));
-                Some(found.ok_or_else(refused)?)
-            }
-        };
-        let (traced, planned) = scene.traced(py)?;
-        let size = Memory::default().keep_circuit(&traced, CircuitWork::Program);
-        size.map_err(|error| errors::request(py, error))?;
+        let number = records::channel(py, channel)?;
+        let prepared = scene.prepared(py)?;
         let place = OraclePixel { place: pixel, seed };
         let report = |problems| errors::scene(py, &scene.loaded.report(problems));
         let inspection = work::run(py, None, None, |_| {
-            Inspection::of_pixel(&traced, number, place)
+            let alone = prepared.pixel_oracles(pixel, CircuitWork::Program)?;
+            Ok::<_, PrepareError>(Inspection::of_pixel(&alone, number, place)?)
         })?;
-        let inspection = inspection.map_err(|error| report(vec![error.problem()]))?;
-        check_budget(&traced, &[inspection.oracle_cost()]).map_err(report)?;
+        let inspection = inspection.map_err(|error| scene.unprepared(py, error))?;
+        check_budget(prepared.scene(), &[inspection.oracle_cost()]).map_err(report)?;
         Ok(Self {
             scene: this,
             name: inspection.name,
@@ -83,8 +76,8 @@ impl Oracle {
             qubits: inspection.qubits,
             toffoli_depth: inspection.toffoli_depth,
             compiled: Arc::new(inspection.oracle),
-            traced,
-            planned,
+            planned: prepared.plan().map(|plan| plan.channel_queries),
+            traced: prepared.scene().clone(),
             thresholds: OnceLock::new(),
         })
     }
@@ -114,8 +107,8 @@ impl Oracle {
         Ok(self.thresholds.get_or_init(|| found))
     }
 
-    fn problem(&self, py: Python<'_>) -> PyResult<Problem> {
-        Ok(Problem {
+    fn problem(&self, py: Python<'_>) -> PyResult<CountingProblem> {
+        Ok(CountingProblem {
             good: self.counted(py)?.iter().sum::<i64>().cast_unsigned(),
             total: self.total(),
         })
@@ -220,6 +213,18 @@ impl Oracle {
         self.compiled.comparator_bits()
     }
 
+    /// t, the qubits of the phase register, as the scene has them; T = 2**phase_bits.
+    #[getter]
+    fn phase_bits(&self) -> u32 {
+        self.traced.scene().counting.phase_bits
+    }
+
+    /// The window on the phase register, "rect" or "sine", as the scene has it.
+    #[getter]
+    fn window(&self) -> &'static str {
+        self.traced.scene().counting.register_window().name()
+    }
+
     /// The radiance of S = N, the proven bound on a path's colour.
     #[getter]
     fn scale(&self) -> f64 {
@@ -244,7 +249,7 @@ impl Oracle {
     /// S/N. The pixel is `scale` times as bright.
     #[getter]
     fn amplitude(&self, py: Python<'_>) -> PyResult<f64> {
-        let Problem { good, total } = self.problem(py)?;
+        let CountingProblem { good, total } = self.problem(py)?;
         Ok(good as f64 / total as f64)
     }
 
@@ -284,24 +289,24 @@ impl Oracle {
     #[pyo3(signature = (version=3, part="oracle", *, max_gates=50_000_000))]
     fn qasm(&self, py: Python<'_>, version: u32, part: &str, max_gates: u64) -> PyResult<String> {
         let format = match version {
-            2 => Format::OpenQasm2,
-            3 => Format::OpenQasm3,
+            2 => ExportFormat::OpenQasm2,
+            3 => ExportFormat::OpenQasm3,
             other => {
                 let message = format!("there is no OpenQASM {other} here: versions are 2 and 3");
                 return Err(errors::request(py, message));
             }
         };
         let part = match part {
-            "oracle" => Part::Oracle,
-            "grover" => Part::Grover,
-            "counting" => Part::Counting,
+            "oracle" => CircuitPart::Oracle,
+            "grover" => CircuitPart::Grover,
+            "counting" => CircuitPart::Counting,
             other => {
                 let message = format!("part={other:?} is none of: oracle, grover, counting");
                 return Err(errors::request(py, message));
             }
         };
-        let asked = self.traced.scene().counting;
-        let window = asked.estimator.register_window(asked.window);
+        let counting = self.traced.scene().counting;
+        let (phase_bits, window) = (counting.phase_bits, counting.register_window());
         let comments = [
             format!(
                 "qrt {}: {}, {}, seed {}",
@@ -319,7 +324,7 @@ impl Oracle {
                 .phase(0, self.seed, self.pixel)
                 .map_err(|e| failed(&e))?;
             let conjunction = Conjunction::Toffolis;
-            let counting = Counting::with(&oracle, asked.phase_bits, window, conjunction);
+            let counting = CountingCircuit::with(&oracle, phase_bits, window, conjunction);
             let counting = counting.map_err(|e| failed(&e))?;
             let export = Export::new(&counting, part, &self.compiled.index_parts());
             let export = export.map_err(|e| failed(&e))?;
@@ -350,7 +355,7 @@ impl Oracle {
         measured: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let counts = work::run(py, None, None, |_| {
-            PictureCounts::for_scene(&self.traced, self.name.class, self.planned)
+            PictureCounts::for_scene(&Oracles::new(&self.traced), self.name, self.planned)
         })?;
         let picture = counts.map_err(|error| match error {
             PhysicalError::Oracle(error) => {

@@ -2,8 +2,10 @@
 
 use crate::{errors, work};
 use pyo3::prelude::*;
+use qrt_runtime::Prepared;
 use qrt_runtime::memory::Memory;
 use qrt_runtime::plan;
+use qrt_runtime::prepared::PrepareError;
 use qrt_runtime::render::RenderError;
 use qrt_scene::front::{self, Files, Loaded};
 use qrt_scene::syntax::Report;
@@ -22,6 +24,8 @@ pub(crate) struct Scene {
     pub(crate) sets: Vec<String>,
     /// The folder of its files.
     folder: PathBuf,
+    /// Other folders that it may read files of.
+    allow_files: Vec<PathBuf>,
     /// Contents of its files, if they came with it from another process.
     held: Option<Held>,
 }
@@ -36,7 +40,7 @@ pub(crate) fn load(
 ) -> PyResult<Scene> {
     let read = py.detach(|| front::load_with(&path, &sets, |files| files.allowing(&allow_files)));
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    Scene::new(py, read, sets, folder, None)
+    Scene::new(py, read, sets, (folder, allow_files), None)
 }
 
 /// Parses the scene of a YAML text, whose name in errors is `name`; its files are below `folder`.
@@ -51,7 +55,7 @@ pub(crate) fn parse(
 ) -> PyResult<Scene> {
     let files = Files::of_folder(&folder).allowing(&allow_files);
     let read = py.detach(|| front::parse_with(text, name, &sets, files));
-    Scene::new(py, read, sets, folder, None)
+    Scene::new(py, read, sets, (folder, allow_files), None)
 }
 
 /// Restores a scene of another process from its text and the files that it came with.
@@ -69,7 +73,7 @@ pub(crate) fn restore(
         .map(|(name, bytes)| (&**name, &**bytes))
         .collect();
     let read = py.detach(|| front::parse_with(text, name, &sets, Files::held(&held)));
-    let scene = Scene::new(py, read, sets, PathBuf::new(), Some(files))?;
+    let scene = Scene::new(py, read, sets, Default::default(), Some(files))?;
     if scene.valid().fingerprint().to_string() == fingerprint {
         Ok(scene)
     } else {
@@ -83,7 +87,7 @@ impl Scene {
         py: Python<'_>,
         read: Result<Loaded, Report>,
         sets: Vec<String>,
-        folder: PathBuf,
+        (folder, allow_files): (PathBuf, Vec<PathBuf>),
         held: Option<Held>,
     ) -> PyResult<Self> {
         let loaded = read.map_err(|report| errors::scene(py, &report))?;
@@ -94,8 +98,26 @@ impl Scene {
             loaded,
             sets,
             folder,
+            allow_files,
             held,
         })
+    }
+
+    /// Returns the scene of the same text and files with more overrides.
+    pub(crate) fn with_sets(&self, py: Python<'_>, more: Vec<String>) -> PyResult<Self> {
+        let sets = [self.sets.clone(), more].concat();
+        let source = &self.loaded.source;
+        let read = py.detach(|| {
+            let held = self.held.iter().flatten();
+            let held: Vec<(&str, &[u8])> = held.map(|(name, bytes)| (&**name, &**bytes)).collect();
+            let files = match self.held {
+                Some(_) => Files::held(&held),
+                None => Files::of_folder(&self.folder).allowing(&self.allow_files),
+            };
+            front::parse_with(&source.text, &source.name, &sets, files)
+        });
+        let folders = (self.folder.clone(), self.allow_files.clone());
+        Self::new(py, read, sets, folders, self.held.clone())
     }
 
     pub(crate) fn valid(&self) -> &ValidScene {
@@ -107,23 +129,25 @@ impl Scene {
         errors::render(py, error, |problems| self.loaded.report(problems))
     }
 
-    /// Returns the scene to trace, with the parameters that the planner chose for its accuracy, if it asks for
-    /// one; and in that case the planned queries of a pixel, by channel.
-    pub(crate) fn traced(&self, py: Python<'_>) -> PyResult<(ValidScene, Option<[f64; 3]>)> {
-        let fits = Memory::default().keep_plan(self.valid());
-        fits.map_err(|error| errors::request(py, error))?;
-        let planned = work::run(py, None, None, |workers| {
-            let options = plan::Options {
+    /// Returns the exception of a scene that cannot be prepared, by a method without a memory budget of its own.
+    pub(crate) fn unprepared(&self, py: Python<'_>, error: PrepareError) -> PyErr {
+        match error {
+            PrepareError::WouldNotFit(error) => errors::request(py, error),
+            error => self.failure(py, error.into()),
+        }
+    }
+
+    /// Returns the scene ready for work, with the parameters that the planner chose for its accuracy, if it
+    /// asks for one.
+    pub(crate) fn prepared(&self, py: Python<'_>) -> PyResult<Prepared<'_>> {
+        let prepared = work::run(py, None, None, |workers| {
+            let options = plan::PlanOptions {
                 workers,
-                ..plan::Options::default()
+                ..plan::PlanOptions::default()
             };
-            plan::plan(self.valid(), &options)
+            Prepared::new(self.valid(), &options, Memory::default())
         })?;
-        let planned = planned.map_err(|error| self.failure(py, error.into()))?;
-        Ok(match planned {
-            Some(plan) => (plan.scene, Some(plan.figures.channel_queries)),
-            None => (self.valid().clone(), None),
-        })
+        prepared.map_err(|error| self.unprepared(py, error))
     }
 
     /// Returns the pixel `asked` if it is on the film; the middle one for `None`.

@@ -7,17 +7,16 @@ use crate::{errors, work};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use qrt_core::oracle::{self, Oracle as PathOracle};
-use qrt_core::tracer::PixelClasses;
 use qrt_counting::estimators::{Noise, NoiseError};
+use qrt_lab::mitsuba;
 use qrt_runtime::memory::Memory;
-use qrt_runtime::mitsuba;
-use qrt_runtime::path_machines::{OracleMachine, Real};
+use qrt_runtime::models::MachineOptions;
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, Options, Portion, RenderError, Visibility, check_circuit,
-    render, render_part,
+    Colour, DEFAULT_FAILURE, Model, Portion, RenderError, RenderOptions, Visibility, render,
+    render_part,
 };
 use qrt_runtime::search::Guess;
+use qrt_runtime::workers::Workers;
 use qrt_scene::Estimator;
 use qrt_scene::valid::ValidScene;
 
@@ -26,7 +25,7 @@ const MOST_PATHS: u64 = 1 << 28;
 
 /// The options of a render, read from Python's keyword arguments.
 struct Asked {
-    options: Options<'static>,
+    options: RenderOptions<'static>,
     threads: Option<std::num::NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 }
@@ -50,7 +49,7 @@ fn of_name<T: Copy>(
 impl Asked {
     fn from_options(py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let mut asked = Self {
-            options: Options::default(),
+            options: RenderOptions::default(),
             threads: None,
             progress: None,
         };
@@ -64,7 +63,8 @@ impl Asked {
                 // None is the same as a missing option.
                 _ if value.is_none() => {}
                 "model" => {
-                    own.model = of_name(py, &key, &Model::ALL, Model::name, value.extract()?)?;
+                    let name = Model::name;
+                    own.model = Some(of_name(py, &key, &Model::ALL, name, value.extract()?)?);
                 }
                 "estimator" => {
                     let name = Estimator::name;
@@ -130,25 +130,15 @@ impl Scene {
         &self,
         py: Python<'_>,
         options: Option<&Bound<'_, PyDict>>,
-        make: impl FnOnce(&ValidScene, &Options<'_>) -> Result<T, RenderError> + Send,
+        make: impl FnOnce(&ValidScene, &RenderOptions<'_>) -> Result<T, RenderError> + Send,
     ) -> PyResult<T> {
         let Asked {
             options,
             threads,
             progress,
         } = Asked::from_options(py, options)?;
-        let progress = progress.unwrap_or_else(|| py.None());
-        let listener = py
-            .import("qrt._progress")?
-            .call_method1("listener", (progress,))?;
-        let heard = (!listener.is_none()).then_some(&listener);
-        let made = work::run(py, threads, heard, |workers| {
-            make(self.valid(), &Options { workers, ..options })
-        });
-        let made = made.and_then(|made| made.map_err(|error| self.failure(py, error)));
-        let closed = heard.map(|listener| listener.call_method0("close"));
-        // The first error is the one that is raised.
-        made.and_then(|made| closed.transpose().map(|_| made))
+        let work = |workers: Workers<'_>| make(self.valid(), &RenderOptions { workers, ..options });
+        work::listened(py, threads, progress, work, |error| self.failure(py, error))
     }
 }
 
@@ -176,6 +166,11 @@ impl Scene {
     #[getter]
     fn fingerprint(&self) -> String {
         self.valid().fingerprint().to_string()
+    }
+
+    /// The scene with more overrides, as texts `KEY=VALUE`.
+    fn _with(&self, py: Python<'_>, sets: Vec<String>) -> PyResult<Self> {
+        self.with_sets(py, sets)
     }
 
     /// The scene as YAML, overrides included; read again, it is the same scene.
@@ -240,8 +235,8 @@ impl Scene {
     }
 
     /// Render portion `k`, from 0, of `n` of the picture, and return it as the bytes of a part: those of a
-    /// file of `qrt render --tile K/N`, which `qrt.merge` and `qrt merge` put together. What else is given is
-    /// as for `render`.
+    /// file of `qrt render --portion K/N`, which `qrt.merge` and `qrt merge` put together. What
+    /// else is given is as for `render`.
     ///
     /// Raises RequestError, too, where there are more portions than pixels.
     #[pyo3(
@@ -251,7 +246,7 @@ impl Scene {
                           first_guess=None, threads=None, max_memory=None, progress=None, checkpoint=None, \
                           resume=False)"
     )]
-    fn render_tile<'py>(
+    fn render_portion<'py>(
         &self,
         py: Python<'py>,
         k: u32,
@@ -284,48 +279,29 @@ impl Scene {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let pixel = self.pixel(py, pixel)?;
         let model = of_name(py, "model", &Model::ALL, Model::name, model)?;
-        let (scene, _) = self.traced(py)?;
-        let paths = 1_u64 << scene.scene().sampling.path_bits;
+        let prepared = self.prepared(py)?;
+        let paths = 1_u64 << prepared.scene().scene().sampling.path_bits;
         if paths > MOST_PATHS {
             let message = format!("{paths} paths are more than {MOST_PATHS}: lower path_bits");
             return Err(errors::request(py, message));
         }
-        let class = PixelClasses::new(&scene).class(pixel);
-        let options = Options {
-            model,
-            ..Options::default()
+        let options = RenderOptions {
+            model: Some(model),
+            ..RenderOptions::default()
         };
         let traced = work::run(py, None, None, |workers| {
-            check_circuit(&scene, &options)?;
+            prepared.check_render(&options)?;
+            let machines = prepared.machines(&MachineOptions {
+                model,
+                seed,
+                colours: true,
+                ..MachineOptions::default()
+            })?;
+            let machine = &**machines.by_class.at(pixel);
             let mut colours = Vec::with_capacity(3 * paths as usize);
-            if model == Model::Real {
-                let real = Real::of_class(&scene, seed, class)?;
-                for ids in work::runs(workers, paths) {
-                    real.trace_range(&[pixel], ids, |block| {
-                        let [red, green, blue] = block.colours;
-                        for ((red, green), blue) in red.iter().zip(green).zip(blue) {
-                            colours.extend([red, green, blue]);
-                        }
-                    });
-                }
-                return Ok(colours);
-            }
-            let made = PathOracle::rgb(&scene, oracle::Options::of_class(class))?;
-            let scale: [f64; 3] =
-                std::array::from_fn(|c| made.channels.get(c).map_or(0.0, |c| c.scale));
-            let unit = (-f64::from(made.fraction)).exp2();
-            let machine = if model == Model::Gates {
-                OracleMachine::gates(made.into(), seed, true)?
-            } else {
-                OracleMachine::fixed(made.into(), seed, true)
-            };
-            let of = |c: usize, value: i64| value as f64 * unit * scale[c];
             for ids in work::runs(workers, paths) {
-                machine.trace(&[pixel], ids, |finished| {
-                    let [red, green, blue] = finished.colours;
-                    for ((red, green), blue) in red.iter().zip(green).zip(blue) {
-                        colours.extend([of(0, *red), of(1, *green), of(2, *blue)]);
-                    }
+                machine.trace_paths(None, &[pixel], ids, &mut |traced| {
+                    traced.each_colour(machine, |_, colour| colours.extend(colour));
                 })?;
             }
             Ok::<Vec<f64>, RenderError>(colours)

@@ -121,3 +121,23 @@ pub(crate) fn run<T: Send>(
     })?;
     done.ok_or_else(|| errors::job(py, "the work ended without a result"))
 }
+
+/// [`run`] with the listener that Python's argument `progress` asks for, which is closed at the end. `failure`
+/// makes the exception of work that fails.
+pub(crate) fn listened<T: Send, E: Send>(
+    py: Python<'_>,
+    threads: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(Workers<'_>) -> Result<T, E> + Send,
+    failure: impl FnOnce(E) -> PyErr,
+) -> PyResult<T> {
+    let progress = progress.unwrap_or_else(|| py.None());
+    let listener = py
+        .import("qrt._progress")?
+        .call_method1("listener", (progress,))?;
+    let heard = (!listener.is_none()).then_some(&listener);
+    let made = run(py, threads, heard, work).and_then(|made| made.map_err(failure));
+    let closed = heard.map(|listener| listener.call_method0("close"));
+    // The first error is the one that is raised.
+    made.and_then(|made| closed.transpose().map(|_| made))
+}

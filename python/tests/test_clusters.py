@@ -18,7 +18,7 @@ import qrt
 def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box, tmp_path):
     distributed = pytest.importorskip("distributed")
     slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 16})
-    tiles = 48
+    portions = 48
     options = {"n_workers": 4, "threads_per_worker": 1, "processes": True}
     with distributed.LocalCluster(**options, dashboard_address=None) as cluster:
         with distributed.Client(cluster) as client:
@@ -27,12 +27,12 @@ def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box, tmp_
             finished = [0]
 
             def told(done, total):
-                assert total == tiles
+                assert total == portions
                 finished[0] = done
                 if done:
                     begun.set()
 
-            # The number of tiles that were finished when each worker was killed.
+            # The number of portions that were finished when each worker was killed.
             killed = []
 
             def kill():
@@ -45,11 +45,11 @@ def test_dask_renders_the_picture_while_two_of_four_workers_are_killed(box, tmp_
             killer = threading.Thread(target=kill)
             killer.start()
             picture = qrt.distributed.render(
-                slow, client, tiles=tiles, estimator="exact", progress=told
+                slow, client, portions=portions, estimator="exact", progress=told
             )
             killer.join()
-    assert len(killed) == 2 and all(0 < done < tiles for done in killed), killed
-    assert finished[0] == tiles
+    assert len(killed) == 2 and all(0 < done < portions for done in killed), killed
+    assert finished[0] == portions
     for made, name in ((picture, "dask.exr"), (slow.render(estimator="exact"), "own.exr")):
         made.save(tmp_path / name)
     assert (tmp_path / "dask.exr").read_bytes() == (tmp_path / "own.exr").read_bytes()
@@ -59,7 +59,7 @@ def test_submitit_renders_the_picture(box, tmp_path):
     submitit = pytest.importorskip("submitit")
     executor = submitit.LocalExecutor(folder=tmp_path)
     executor.update_parameters(timeout_min=5)
-    picture = qrt.distributed.render(box, executor, tiles=3, estimator="exact")
+    picture = qrt.distributed.render(box, executor, portions=3, estimator="exact")
     assert numpy.array_equal(picture.pixels, box.render(estimator="exact").pixels)
 
 
@@ -72,7 +72,7 @@ SCRIPT = """
         scene = qrt.load(sys.argv[1])
         with MPIPoolExecutor() as pool:
             assert pool.num_workers == 2
-            picture = qrt.distributed.render(scene, pool, tiles=6, estimator="exact")
+            picture = qrt.distributed.render(scene, pool, portions=6, estimator="exact")
         picture.save(sys.argv[2])
 """
 

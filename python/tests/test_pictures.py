@@ -215,7 +215,7 @@ def test_other_threads_run_meanwhile(box):
     slow = qrt.parse(box.to_yaml(), {"sampling.path_bits": 15})
     large = {"film": {"width": 1024, "height": 1024}, "sampling.path_bits": 1}
     large = qrt.parse(box.to_yaml(), large)
-    parts = [qrt.render_tile(large, k, 2, estimator="exact") for k in range(2)]
+    parts = [qrt.render_portion(large, k, 2, estimator="exact") for k in range(2)]
     device = box.oracle("r", (4, 5)).device(seed=1)
     for work in (
         lambda: slow.render(estimator="exact", threads=1),
@@ -331,7 +331,7 @@ def test_a_budget_is_kept_by_every_render(box):
     for model in ("fixed", "gates"):
         for work in (
             lambda: tight.render(model=model),
-            lambda: qrt.render_tile(tight, 0, 2, model=model),
+            lambda: qrt.render_portion(tight, 0, 2, model=model),
             lambda: tight.paths(model=model),
         ):
             with pytest.raises(qrt.SceneError, match="budget") as raised:
@@ -357,9 +357,9 @@ def test_signatures_name_every_option(box):
     render = inspect.signature(qrt.Scene.render).parameters
     defaults = {name: one.default for name, one in render.items() if name != "self"}
     assert set(defaults) == set(RenderOptions.__annotations__)
-    tile = inspect.signature(qrt.Scene.render_tile).parameters
-    assert list(tile)[:3] == ["self", "k", "n"]
-    assert {name: one.default for name, one in list(tile.items())[3:]} == defaults
+    portion = inspect.signature(qrt.Scene.render_portion).parameters
+    assert list(portion)[:3] == ["self", "k", "n"]
+    assert {name: one.default for name, one in list(portion.items())[3:]} == defaults
     # The defaults in the signature are the values used for missing options.
     given = box.render(crop=(0, 0, 3, 3)).pixels
     named = box.render(**(defaults | {"crop": (0, 0, 3, 3)})).pixels

@@ -16,7 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def test_an_oracle_costs_what_the_command_says(command, box):
     oracle = box.oracle("g", (3, 4))
-    inspected = json.loads(command("inspect", "box.yaml", "--json", "--channel", "g"))
+    words = ["--json", "--channel", "g", "--pixel", "3,4"]
+    inspected = json.loads(command("inspect", "box.yaml", *words))
     assert oracle.toffoli == inspected["gates"]["toffoli"]
     assert oracle.and_measured == inspected["gates"]["and_measured"]
     assert (oracle.channel, oracle.pixel, oracle.path_bits) == ("g", (3, 4), 10)
@@ -66,14 +67,11 @@ def test_an_oracle_costs_what_every_command_says_of_it(
     assert gates == inspected["gates"] == exported["oracle"]["gates"]
     assert exported["gates"]["ccx"] == oracle.toffoli
     assert exported["gates"]["x"] == oracle.x
-    listed = {
-        "channel": "g",
-        "class": pixel_class,
-        "qubits": oracle.qubits,
-        "toffoli": oracle.toffoli,
-    }
-    assert listed in inspected["oracles"]
-    assert listed in json.loads(verified)["oracles"]
+    # Both commands list the oracles of all pixels of a class, which have no pixel built in.
+    assert json.loads(verified)["oracles"] == inspected["oracles"]
+    listed = [one for one in inspected["oracles"] if one["channel"] == "g"]
+    listed = next(one for one in listed if one["class"] == pixel_class)
+    assert listed["toffoli"] >= oracle.toffoli and listed["qubits"] >= oracle.qubits
     text = oracle.qasm()
     assert text.count("\nccx ") == oracle.toffoli
     assert f"{oracle.qubits:,} qubits, {oracle.toffoli:,} Toffolis" in text
@@ -117,11 +115,12 @@ def test_a_noisy_device_forgets(box):
 def test_the_command_counts_the_same_numbers(command, dot):
     """S and N of an oracle are what `qrt count` takes; its outcome is likeliest where S/N is."""
     oracle = dot.oracle("r", PIXEL)
-    assert (oracle.good, oracle.total) == (16, 32)
+    assert (oracle.good, oracle.total) == (12, 32)
     numbers = ("--good", oracle.good, "--total", oracle.total, "--phase-bits", 6)
     told = json.loads(command("count", *numbers, "--json"))["outcomes"]
     likeliest = max(told, key=lambda outcome: outcome["probability"])
-    assert math.sin(math.pi * likeliest["theta"]) ** 2 == pytest.approx(oracle.amplitude)
+    theta = math.asin(math.sqrt(oracle.amplitude)) / math.pi
+    assert abs(likeliest["theta"] - theta) <= 0.5 / 2**6
 
 
 # A lamp in front of some of the paths of one pixel: S/N is 3/8, on 17 qubits. Every tested power of the

@@ -21,12 +21,14 @@ from ._errors import (
     SceneWarning,
 )
 from ._qrt import Device, Oracle, Picture, Scene, __version__
+from ._records import Record, count
 from ._scenes import from_dict, load, parse
-from ._tiles import merge, render_tile
-from . import _display, _quantum, distributed
+from ._portions import merge, render_portion
+from . import _display, _quantum, _records, distributed
 
 _display.extend(Picture, Oracle)
 _quantum.extend(Oracle)
+_records.extend(Scene)
 
 __all__ = [
     "Device",
@@ -36,15 +38,17 @@ __all__ = [
     "Oracle",
     "Picture",
     "Problem",
+    "Record",
     "RequestError",
     "Scene",
     "SceneError",
     "SceneWarning",
     "__version__",
+    "count",
     "distributed",
     "from_dict",
     "load",
     "merge",
     "parse",
-    "render_tile",
+    "render_portion",
 ]

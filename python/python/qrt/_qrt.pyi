@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, final
 
 import cirq
@@ -10,6 +10,7 @@ from qiskit_algorithms import EstimationProblem
 from typing_extensions import Unpack
 
 from ._options import RenderOptions
+from ._records import Record
 
 __all__ = [
     "Device",
@@ -17,10 +18,17 @@ __all__ = [
     "Picture",
     "Scene",
     "__version__",
+    "count",
+    "inspect",
     "load",
     "merge",
+    "pareto",
     "parse",
+    "plan",
     "restore",
+    "simulate_pixel",
+    "trade_in",
+    "verify",
 ]
 
 __version__: str
@@ -29,6 +37,7 @@ _Path = str | os.PathLike[str]
 _Progress = bool | Callable[[int, int], object] | None
 _Channel = Literal["r", "g", "b"]
 _Model = Literal["real", "fixed", "gates"]
+_Window = Literal["rect", "sine"]
 _Part = Literal["oracle", "grover", "counting"]
 
 @final
@@ -60,7 +69,7 @@ class Scene:
         checkpoint: _Path | None = None,
         resume: bool = False,
     ) -> Picture: ...
-    def render_tile(self, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes: ...
+    def render_portion(self, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes: ...
     def paths(
         self,
         pixel: tuple[int, int] | None = None,
@@ -75,6 +84,63 @@ class Scene:
         *,
         seed: int = 0,
     ) -> Oracle: ...
+    def with_(self, set: Mapping[str, Any]) -> Scene: ...
+    def _with(self, sets: Sequence[str]) -> Scene: ...
+    def inspect(
+        self,
+        channel: _Channel | None = None,
+        pixel: tuple[int, int] | None = None,
+        *,
+        seed: int = 0,
+    ) -> Record: ...
+    def pareto(
+        self,
+        channel: _Channel | None = None,
+        pixel: tuple[int, int] | None = None,
+        *,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Record: ...
+    def verify(
+        self,
+        *,
+        pixels: int = 16,
+        seed: int = 0,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Record: ...
+    def plan(self) -> Record: ...
+    def trade(
+        self,
+        folder: _Path | None = None,
+        *,
+        quick: bool = False,
+        pixels: int | None = None,
+        seed: int = 0,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Record: ...
+    def simulate(
+        self,
+        channel: _Channel | None = None,
+        pixel: tuple[int, int] | None = None,
+        *,
+        phase_bits: int | None = None,
+        window: _Window | None = None,
+        shots: int | None = None,
+        seed: int = 0,
+    ) -> Record: ...
+    def count(
+        self,
+        channel: _Channel | None = None,
+        pixel: tuple[int, int] | None = None,
+        *,
+        phase_bits: int | None = None,
+        window: _Window | None = None,
+        outcomes: Sequence[int] = (),
+        shots: int | None = None,
+        seed: int = 0,
+    ) -> Record: ...
     def mitsuba(self, stem: str = "scene") -> tuple[str, dict[str, bytes]]: ...
 
 @final
@@ -152,6 +218,10 @@ class Oracle:
     @property
     def comparator_bits(self) -> int: ...
     @property
+    def phase_bits(self) -> int: ...
+    @property
+    def window(self) -> _Window: ...
+    @property
     def scale(self) -> float: ...
     @property
     def total(self) -> int: ...
@@ -186,7 +256,7 @@ class Device:
     def shot(self, k: int = 0) -> bool: ...
     def shots(self, k: int, shots: int) -> int: ...
     def phases(
-        self, phase_bits: int, shots: int = 1, *, window: Literal["rect", "sine"] = "rect"
+        self, phase_bits: int, shots: int = 1, *, window: _Window = "rect"
     ) -> list[int]: ...
     @property
     def total(self) -> int: ...
@@ -203,3 +273,44 @@ def restore(
     text: str, name: str, sets: list[str], files: list[tuple[str, bytes]], fingerprint: str
 ) -> Scene: ...
 def merge(parts: Iterable[tuple[str, bytes]]) -> Picture: ...
+def inspect(
+    scene: Scene, channel: str | None, pixel: tuple[int, int] | None, seed: int
+) -> str: ...
+def pareto(
+    scene: Scene,
+    channel: str | None,
+    pixel: tuple[int, int] | None,
+    threads: int | None,
+    progress: Any,
+) -> str: ...
+def verify(
+    scene: Scene, pixels: int, seed: int, threads: int | None, progress: Any
+) -> str: ...
+def plan(scene: Scene) -> str: ...
+def trade_in(
+    scene: Scene,
+    folder: _Path,
+    quick: bool,
+    pixels: int | None,
+    seed: int,
+    threads: int | None,
+    progress: Any,
+) -> str: ...
+def simulate_pixel(
+    scene: Scene,
+    channel: str | None,
+    pixel: tuple[int, int] | None,
+    phase_bits: int | None,
+    window: str | None,
+    shots: int | None,
+    seed: int,
+) -> str: ...
+def count(
+    good: int,
+    total: int,
+    phase_bits: int,
+    window: str,
+    outcomes: Sequence[int],
+    shots: int | None,
+    seed: int,
+) -> str: ...

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import Any
+
+
+def _library(module: str, extra: str) -> Any:
+    """Imports a module of a library that qrt does without; says how it is installed if it is missing."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        message = f"{error}; qrt's extra has all that this needs: pip install './python[{extra}]'"
+        raise ImportError(message, name=error.name) from error
 
 
 def to_qiskit(self: Any, part: str = "oracle") -> Any:
@@ -12,8 +22,7 @@ def to_qiskit(self: Any, part: str = "oracle") -> Any:
     end at zero. The index is to be prepared by whoever runs an oracle or an iterate: with Hadamards, for
     all paths in superposition.
     """
-    from qiskit import qasm2
-
+    qasm2 = _library("qiskit.qasm2", "qiskit")
     instructions = qasm2.LEGACY_CUSTOM_INSTRUCTIONS
     return qasm2.loads(self.qasm(2, part), custom_instructions=instructions)
 
@@ -25,9 +34,8 @@ def estimation_problem(self: Any) -> Any:
     iterate, and what is measured is the index: it is good if its path's colour exceeds its threshold,
     which is looked up in the path's own colour. `post_processing` makes a radiance of the amplitude.
     """
-    from qiskit import QuantumCircuit
-    from qiskit_algorithms import EstimationProblem
-
+    QuantumCircuit = _library("qiskit", "qiskit").QuantumCircuit
+    EstimationProblem = _library("qiskit_algorithms", "qiskit").EstimationProblem
     grover = to_qiskit(self, "grover")
     index = [
         grover.find_bit(qubit).index
@@ -58,8 +66,9 @@ def to_pennylane(self: Any, part: str = "oracle") -> Any:
     """The circuit as a quantum function of PennyLane, through OpenQASM 3: call it in a QNode. Its wires
     are called `path[0]` and so on, and nothing is measured. PennyLane needs `openqasm3[parser]` for it.
     """
-    import pennylane
-
+    pennylane = _library("pennylane", "pennylane")
+    # Its parser of OpenQASM 3 is a library of its own.
+    _library("openqasm3", "pennylane")
     # PennyLane supports neither `measure` nor `include`.
     lines = self.qasm(3, part).splitlines()
     lines = [line for line in lines if "measure" not in line and "include" not in line]
@@ -68,9 +77,8 @@ def to_pennylane(self: Any, part: str = "oracle") -> Any:
 
 def to_cirq(self: Any, part: str = "oracle") -> Any:
     """The circuit as a cirq.Circuit, through OpenQASM 2; its qubits are called `path_0` and so on."""
-    from cirq.contrib.qasm_import import circuit_from_qasm
-
-    return circuit_from_qasm(self.qasm(2, part))
+    imported = _library("cirq.contrib.qasm_import", "cirq")
+    return imported.circuit_from_qasm(self.qasm(2, part))
 
 
 def extend(oracle: Any) -> None:

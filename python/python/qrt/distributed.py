@@ -11,7 +11,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from . import _qrt, _tiles
+from . import _portions, _qrt
 from ._errors import RequestError
 from ._progress import listener
 
@@ -25,18 +25,18 @@ __all__ = ["render"]
 _TICK = 0.05
 
 
-def _work(scene: _qrt.Scene, number: int, tiles: int, attempt: int, options: dict[str, Any]) -> bytes:
+def _work(scene: _qrt.Scene, number: int, portions: int, attempt: int, options: dict[str, Any]) -> bytes:
     """A part. A pool that takes equal calls for one, as Dask does, sees that another attempt is
     another call."""
     del attempt
-    return _tiles.render_tile(scene, number, tiles, **options)
+    return _portions.render_portion(scene, number, portions, **options)
 
 
 def render(
     scene: _qrt.Scene,
     executor: Any,
     *,
-    tiles: int | None = None,
+    portions: int | None = None,
     retries: int = 2,
     threads: int | None = 1,
     progress: Any = None,
@@ -45,34 +45,34 @@ def render(
     """Render a scene on the workers of `executor`: the picture of `scene.render(**options)`, bit for
     bit.
 
-    The picture is cut into `tiles` portions, by default 64 or as many as it has pixels; each is a task
+    `portions` is the number of portions of the picture, by default 64, or its number of pixels; each is a task
     that takes `threads` threads. A task that fails is submitted again, up to `retries` times; a request
-    that can't be met, such as a wrong option, is not. `progress` is told of tiles as `Scene.render` is of
-    paths. All tiles are awaited: there is a whole picture, or the exception of the task that failed last.
+    that can't be met, such as a wrong option, is not. `progress` is told of portions as `Scene.render` is of
+    paths. All portions are awaited: there is a whole picture, or the exception of the task that failed last.
 
     `options` are those of `Scene.render` but for `checkpoint` and `resume`: what is lost of a pool's work
-    are single tiles, and the pool does them again. A pool that breaks when a worker dies, such as
+    are single portions, and the pool does them again. A pool that breaks when a worker dies, such as
     ProcessPoolExecutor or MPI's, raises its own exception here (BrokenProcessPool).
     """
     for name in ("checkpoint", "resume"):
         if name in options:
-            message = f"{name}= keeps the work of one process: a pool does lost tiles again"
+            message = f"{name}= keeps the work of one process: a pool does lost portions again"
             raise RequestError(message)
-    if tiles is None:
+    if portions is None:
         crop = options.get("crop")
         width, height = crop[2:] if crop else (scene.width, scene.height)
-        tiles = max(1, min(64, width * height))
+        portions = max(1, min(64, width * height))
     every: dict[str, Any] = dict(options, threads=threads, progress=False)
     parts: dict[int, bytes] = {}
-    failures = [0] * tiles
+    failures = [0] * portions
 
     def submit(number: int) -> Any:
-        return executor.submit(_work, scene, number, tiles, failures[number], every)
+        return executor.submit(_work, scene, number, portions, failures[number], every)
 
     running: dict[int, Any] = {}
     told = listener(progress)
     try:
-        running.update((number, submit(number)) for number in range(tiles))
+        running.update((number, submit(number)) for number in range(portions))
         while running:
             finished = [number for number, future in running.items() if future.done()]
             for number in finished:
@@ -87,7 +87,7 @@ def render(
                         raise
                     running[number] = submit(number)
             if told is not None:
-                told(len(parts), tiles)
+                told(len(parts), portions)
             if not finished:
                 time.sleep(_TICK)
     finally:
@@ -95,4 +95,4 @@ def render(
             future.cancel()
         if told is not None:
             told.close()
-    return _tiles.merge(parts[number] for number in range(tiles))
+    return _portions.merge(parts[number] for number in range(portions))

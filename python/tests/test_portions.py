@@ -11,7 +11,7 @@ import qrt
 
 def test_parts_merge_to_the_picture_in_any_order(box, tmp_path):
     whole = box.render(seed=3)
-    parts = [qrt.render_tile(box, k, 5, seed=3, threads=1 + k % 2) for k in (3, 0, 4, 1, 2)]
+    parts = [qrt.render_portion(box, k, 5, seed=3, threads=1 + k % 2) for k in (3, 0, 4, 1, 2)]
     merged = qrt.merge(parts)
     for name in ("pixels", "queries", "widths", "strata"):
         assert numpy.array_equal(getattr(merged, name), getattr(whole, name)), name
@@ -21,8 +21,8 @@ def test_parts_merge_to_the_picture_in_any_order(box, tmp_path):
 
 
 def test_parts_are_those_of_the_command(command, box, tmp_path):
-    (tmp_path / "one").write_bytes(qrt.render_tile(box, 1, 2))
-    command("render", "box.yaml", "--tile", "0/2", "-o", "other")
+    (tmp_path / "one").write_bytes(qrt.render_portion(box, 1, 2))
+    command("render", "box.yaml", "--portion", "0/2", "-o", "other")
     command("render", "box.yaml", "-o", "whole.exr")
     command("merge", "one", "other", "-o", "merged.exr")
     qrt.merge([tmp_path / "one", (tmp_path / "other").read_bytes()]).save(tmp_path / "own.exr")
@@ -32,7 +32,7 @@ def test_parts_are_those_of_the_command(command, box, tmp_path):
 
 
 def test_there_is_no_picture_of_parts_that_make_none(box):
-    parts = [qrt.render_tile(box, k, 3) for k in range(3)]
+    parts = [qrt.render_portion(box, k, 3) for k in range(3)]
     damaged = bytearray(parts[1])
     damaged[len(damaged) // 2] ^= 1
     for wrong, reason in (
@@ -42,7 +42,7 @@ def test_there_is_no_picture_of_parts_that_make_none(box):
         ([parts[0], damaged, parts[2]], r"`parts\[1\]` is damaged"),
         ([parts[0], b"part", parts[2]], r"`parts\[1\]` is no part"),
         (
-            [parts[0], qrt.render_tile(box, 1, 3, seed=1), parts[2]],
+            [parts[0], qrt.render_portion(box, 1, 3, seed=1), parts[2]],
             r"`parts\[1\]` and `parts\[0\]` are parts of different pictures\n  seed: 1 and 0",
         ),
     ):
@@ -50,7 +50,7 @@ def test_there_is_no_picture_of_parts_that_make_none(box):
             qrt.merge(wrong)
     for k, n in ((3, 3), (0, 0), (0, 144)):
         with pytest.raises(qrt.RequestError):
-            qrt.render_tile(box, k, n)
+            qrt.render_portion(box, k, n)
 
 
 def test_processes_render_the_picture(box):
@@ -60,10 +60,10 @@ def test_processes_render_the_picture(box):
     told = []
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
         picture = qrt.distributed.render(
-            box, pool, tiles=7, estimator="exact", progress=lambda *far: told.append(far)
+            box, pool, portions=7, estimator="exact", progress=lambda *far: told.append(far)
         )
         with pytest.raises(qrt.RequestError, match="best"):
-            qrt.distributed.render(box, pool, tiles=2, estimator="best")
+            qrt.distributed.render(box, pool, portions=2, estimator="best")
         for option in ("checkpoint", "resume"):
             with pytest.raises(qrt.RequestError, match=f"{option}= keeps the work of one process"):
                 qrt.distributed.render(box, pool, **{option: True})
@@ -91,7 +91,7 @@ class Unreliable:
 def test_a_wrong_option_is_no_lost_task(box):
     pool = Unreliable(0)
     with pytest.raises(TypeError, match="modell"):
-        qrt.distributed.render(box, pool, tiles=1, modell="real")
+        qrt.distributed.render(box, pool, portions=1, modell="real")
     assert pool.submitted == 1
 
 
@@ -107,7 +107,7 @@ def test_a_pool_that_breaks_with_a_worker_says_so(box):
                     process.kill()
 
         with pytest.raises(concurrent.futures.process.BrokenProcessPool):
-            qrt.distributed.render(slow, pool, tiles=40, estimator="exact", progress=told)
+            qrt.distributed.render(slow, pool, portions=40, estimator="exact", progress=told)
 
 
 def test_parts_make_the_layers_of_one_render(command, box, tmp_path):
@@ -115,7 +115,7 @@ def test_parts_make_the_layers_of_one_render(command, box, tmp_path):
     box = qrt.parse(box.to_yaml(), {"film": {"width": 9, "height": 7}})
     command("render", "box.yaml", *sets, "--layers", "-o", "whole.exr")
     for k in range(2):
-        command("render", "box.yaml", *sets, "--tile", f"{k}/2", "-o", f"part{k}")
+        command("render", "box.yaml", *sets, "--portion", f"{k}/2", "-o", f"part{k}")
     command("merge", "part1", "part0", "--layers", "box.yaml", *sets, "-o", "merged.exr")
     merged = qrt.merge([tmp_path / "part0", tmp_path / "part1"])
     merged.save(tmp_path / "own.exr", layers=box)
@@ -134,8 +134,8 @@ def test_parts_make_the_layers_of_one_render(command, box, tmp_path):
 
 def test_lost_tasks_are_done_again_so_often(box):
     pool = Unreliable(3)
-    picture = qrt.distributed.render(box, pool, tiles=4, crop=(0, 0, 4, 4))
+    picture = qrt.distributed.render(box, pool, portions=4, crop=(0, 0, 4, 4))
     assert pool.submitted == 7
     assert numpy.array_equal(picture.pixels, box.render(crop=(0, 0, 4, 4)).pixels)
     with pytest.raises(ConnectionError):
-        qrt.distributed.render(box, Unreliable(99), tiles=1, retries=2, crop=(0, 0, 4, 4))
+        qrt.distributed.render(box, Unreliable(99), portions=1, retries=2, crop=(0, 0, 4, 4))

@@ -14,17 +14,17 @@ if TYPE_CHECKING:
     from ._options import RenderOptions
 
 
-def render_tile(scene: _qrt.Scene, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes:
+def render_portion(scene: _qrt.Scene, k: int, n: int, **options: Unpack[RenderOptions]) -> bytes:
     """Render portion `k`, from 0, of `n` of a picture, and return it as the bytes of a part.
 
     `options` are those of `Scene.render`. The portion's pixels lie in small rectangles all over the
     picture, so that all portions take about as long. The bytes are those of a file of `qrt render
-    --tile K/N`, and `merge` or `qrt merge` takes them. A function of its arguments alone, for pools of
+    --portion K/N`, and `merge` or `qrt merge` takes them. A function of its arguments alone, for pools of
     processes: scenes travel with their meshes.
 
     Raises what `Scene.render` raises, and RequestError for more portions than pixels.
     """
-    return scene.render_tile(k, n, **options)
+    return scene.render_portion(k, n, **options)
 
 
 def merge(parts: Iterable[bytes | str | os.PathLike[str]]) -> _qrt.Picture:
