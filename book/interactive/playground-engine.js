@@ -1,6 +1,6 @@
 // Who answers the playground's questions: qrt in workers of the page, or qrt behind the page.
 //
-// Both take the calls of qrt_runtime::playground, and give their answers.
+// Both take the calls of qrt_lab::playground, and give their answers.
 
 import { decode } from "./answer.js";
 

@@ -2,7 +2,7 @@
 //
 // Pixels are shared by several who paint; another checks the text at every keystroke, another
 // reckons the oracle's cost, and another looks at the pixel under the cursor. See
-// qrt_runtime::playground for what they are asked.
+// qrt_lab::playground for what they are asked.
 
 import * as cm from "./codemirror.js";
 import { Controls, Readouts, digits, element, grouped, powerOfTwo, shape, whole } from "./parts.js";

@@ -5,7 +5,7 @@
 
 use qrt_circuit::{Gate, Operand, Program, RegisterId, Type, lower};
 use qrt_core::compile::{Label, Role};
-use qrt_core::oracle::{Options, Oracle};
+use qrt_core::oracle::{Oracle, OracleOptions};
 use qrt_scene::front;
 use qrt_scene::{Camera, Geometry, Material, Scene};
 use std::error::Error;
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Returns the oracle of the first channel of the first pixel: compute, compare and flip, uncompute.
 fn circuit() -> Result<String, Box<dyn Error>> {
     let scene = front::load(CIRCUIT.as_ref(), &[])?.valid;
-    let oracle = Oracle::new(&scene, 0, Options::default())?;
+    let oracle = Oracle::new(&scene, 0, OracleOptions::default())?;
     let program = oracle.whole(0);
     let cuts: Vec<usize> = (1..program.instructions.len()).collect();
     let parts = lower::parts(&program, &cuts);
@@ -188,6 +188,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
         name,
         camera: Camera::Perspective(camera),
         film,
+        sky: None,
         materials,
         geometry,
         sampling,
@@ -221,10 +222,10 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "camera: Camera::Perspective(Perspective {{ eye: {eye:?}.into(), target: {target:?}.into(), \
-         up: {up:?}.into(), vfov: {:?} }}),",
+         up: {up:?}.into(), vfov: {:?}, lens: None }}),",
         camera.vfov
     )?;
-    writeln!(out, "film: {film:?}, materials: vec![")?;
+    writeln!(out, "film: {film:?}, sky: None, materials: vec![")?;
     for (name, material) in materials {
         let made = match material {
             Material::Lambertian(part) => format!("Material::Lambertian({part:?})"),
@@ -247,7 +248,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
     for depth in &sampling.depths {
         writeln!(
             out,
-            "DepthSampling {{ bits: {:?}, map: Map::{:?}, light: {:?} }},",
+            "DepthSampling {{ bits: {:?}, map: Map::{:?}, light: {:?}, lens: None }},",
             depth.bits, depth.map, depth.light
         )?;
     }

@@ -38,7 +38,7 @@ is_new() {
   done
   [ -z "$(
     find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-counting" \
-      "$root/qrt-machines" "$root/qrt-runtime" "$root/qrt-scene" \
+      "$root/qrt-lab" "$root/qrt-machines" "$root/qrt-runtime" "$root/qrt-scene" \
       "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
       -type f -newer "$dist/qrt_${figures[-1]}.wasm" -print -quit
   )" ]

@@ -17,6 +17,7 @@ for scene in scenes-yaml/*.yaml; do
     furnace) exposure=0 paths=6 sets=() ;; # nothing but lamps; all of its paths are equal
     floor-and-light) exposure=0 ;;
     lit-box) sets=() ;; # as its file says
+    weekend) exposure=0 sets=() ;; # no lamps to sample
     cornell-glass) paths=11 sets=(--set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit, $lit, $lit]") ;;
   esac
   echo "$name"
@@ -28,3 +29,8 @@ done
 echo lit-box-gates
 "$qrt" render scenes-yaml/lit-box.yaml -o docs/gallery/lit-box-gates.png --model gates \
   --estimator exact --exposure 1 --set sampling.path_bits=6 --quiet
+
+# By complete counting circuits, as amplitudes: a minute on one core. ImageMagick makes 32 x 32 of each pixel.
+echo shadow-simulated
+"$qrt" simulate scenes-yaml/small/shadow.yaml --film docs/gallery/shadow-simulated.png
+magick docs/gallery/shadow-simulated.png -scale 256x256 docs/gallery/shadow-simulated.png

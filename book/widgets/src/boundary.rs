@@ -17,7 +17,7 @@ mod map;
 #[cfg(feature = "picture")]
 mod picture;
 
-use qrt_runtime::playground::Answer;
+use qrt_lab::playground::Answer;
 use std::cell::RefCell;
 use std::fmt::Display;
 

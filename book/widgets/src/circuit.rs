@@ -4,9 +4,9 @@
 //! operation of the program after another, forwards or backwards; in between, the figure shows the
 //! registers of one basis state, and the signs of all of them.
 
-use qrt_circuit::{Circuit, Gate, Qubit};
-use qrt_machines::{Gates, InvalidGate, Rows};
-use qrt_runtime::playground::Answer;
+use qrt_circuit::{Gate, GateCircuit, Qubit};
+use qrt_lab::playground::Answer;
+use qrt_machines::{GatesMachine, InvalidGate, Rows};
 use std::fmt::Write;
 
 /// The scene.
@@ -108,7 +108,7 @@ pub fn description() -> Answer {
 /// An oracle whose circuit has run up to some operation.
 pub struct Stepper {
     /// The operations' gates, followed by the inverse of each operation.
-    machine: Gates,
+    machine: GatesMachine,
     rows: Rows,
     /// Number of operations that have run.
     position: usize,
@@ -120,10 +120,10 @@ impl Stepper {
     /// # Errors
     /// This circuit gives no error.
     pub fn new() -> Result<Self, InvalidGate> {
-        let forwards: Vec<Circuit> = (0..STEPS.len()).map(circuit).collect();
-        let backwards: Vec<Circuit> = forwards.iter().map(inverse).collect();
-        let all: Vec<&Circuit> = forwards.iter().chain(&backwards).collect();
-        let machine = Gates::new(&all)?;
+        let forwards: Vec<GateCircuit> = (0..STEPS.len()).map(circuit).collect();
+        let backwards: Vec<GateCircuit> = forwards.iter().map(inverse).collect();
+        let all: Vec<&GateCircuit> = forwards.iter().chain(&backwards).collect();
+        let machine = GatesMachine::new(&all)?;
         let mut rows = machine.rows();
         let states = 0..1_u64 << (id_bits() + comparator_bits());
         let ids: Vec<u64> = states.clone().map(|s| s & ((1 << id_bits()) - 1)).collect();
@@ -214,7 +214,7 @@ fn qubits(register: usize) -> Vec<Qubit> {
 }
 
 /// Returns an operation's gates, for a machine.
-fn circuit(step: usize) -> Circuit {
+fn circuit(step: usize) -> GateCircuit {
     let gate = |&[kind, a, b, target]: &[u8; 4]| {
         let [a, b, target] = [a, b, target].map(Qubit::from);
         match kind {
@@ -224,15 +224,15 @@ fn circuit(step: usize) -> Circuit {
             _ => Gate::Z(target),
         }
     };
-    Circuit {
+    GateCircuit {
         gates: gates(step).iter().map(gate).collect(),
         qubits: QUBITS as u32,
-        ..Circuit::default()
+        ..GateCircuit::default()
     }
 }
 
 /// Returns the gates in reverse order: each gate is its own inverse.
-fn inverse(step: &Circuit) -> Circuit {
+fn inverse(step: &GateCircuit) -> GateCircuit {
     let mut inverse = step.clone();
     inverse.gates.reverse();
     inverse
@@ -259,12 +259,12 @@ fn unsigned(bits: &str) -> u64 {
 mod tests {
     use super::*;
     use qrt_circuit::{Contents, Operand, Type};
-    use qrt_core::oracle::{Options, Oracle};
+    use qrt_core::oracle::{Oracle, OracleOptions};
     use qrt_scene::front;
 
     fn oracle() -> Oracle {
         let scene = front::parse(SCENE, "lamp.yaml", &[], "".as_ref()).unwrap();
-        Oracle::new(&scene.valid, 0, Options::default()).unwrap()
+        Oracle::new(&scene.valid, 0, OracleOptions::default()).unwrap()
     }
 
     fn states() -> impl Iterator<Item = (u64, u64)> {

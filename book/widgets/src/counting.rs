@@ -3,11 +3,11 @@
 //! Its numbers are those of `qrt count` with `--total 4096`.
 
 use qrt_counting::estimators::{
-    DEFAULT_CONFIDENCE, Device, EstimatorError, Noise, Problem, WindowedCounting,
+    CountingProblem, DEFAULT_CONFIDENCE, Device, EstimatorError, Noise, WindowedCounting,
 };
 use qrt_counting::random::Stream;
 use qrt_counting::{PhaseDistribution, posterior};
-use qrt_runtime::playground::Answer;
+use qrt_lab::playground::Answer;
 use qrt_scene::Window;
 
 /// N, the number of ids.
@@ -19,7 +19,7 @@ pub const MOST_RUNS: u32 = 64;
 
 /// Values of the controls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked {
+pub struct CountingControls {
     /// The angle, in turns, from 0 to 1/2; rounded to the nearest angle of a number of good ids.
     pub theta: f64,
     /// t, of T = 2^t.
@@ -42,8 +42,8 @@ pub fn good(theta: f64) -> u64 {
 ///
 /// # Errors
 /// A register or a number of runs out of range.
-pub fn answer(asked: Asked) -> Result<Answer, EstimatorError> {
-    let Asked {
+pub fn answer(asked: CountingControls) -> Result<Answer, EstimatorError> {
+    let CountingControls {
         theta,
         phase_bits,
         runs,
@@ -55,7 +55,7 @@ pub fn answer(asked: Asked) -> Result<Answer, EstimatorError> {
     let half = distribution.largest_outcome();
 
     let mut stream = Stream::new(u64::from(seed), 0, 0, 0);
-    let problem = Problem { good, total: IDS };
+    let problem = CountingProblem { good, total: IDS };
     let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
     let outcomes = device.phases(phase_bits, window, runs)?;
     let mut drawn = vec![0_u32; half as usize + 1];
@@ -118,8 +118,8 @@ fn angle(good: u64, phase_bits: u32, window: Window) -> Result<f64, EstimatorErr
 mod tests {
     use super::*;
 
-    fn asked() -> Asked {
-        Asked {
+    fn asked() -> CountingControls {
+        CountingControls {
             theta: 1.0 / 3.0,
             phase_bits: 6,
             runs: 3,
@@ -133,7 +133,7 @@ mod tests {
         for window in [Window::Rect, Window::Sine] {
             for phase_bits in 1..=MOST_PHASE_BITS {
                 for theta in [0.0, 0.1, 0.25, 1.0 / 3.0, 0.4999, 0.5] {
-                    let asked = Asked {
+                    let asked = CountingControls {
                         theta,
                         phase_bits,
                         window,
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn the_maximum_of_the_posterior_is_the_likeliest() {
         for seed in 0..20 {
-            let answer = answer(Asked { seed, ..asked() }).unwrap();
+            let answer = answer(CountingControls { seed, ..asked() }).unwrap();
             let posterior = answer.list_of("posterior").unwrap();
             let likeliest = answer.number_of("likeliest").unwrap();
             let most = posterior.iter().copied().fold(0.0, f64::max);
@@ -185,7 +185,7 @@ mod tests {
     fn controls_out_of_range_are_refused() {
         for (phase_bits, runs) in [(0, 1), (41, 1), (3, 0)] {
             assert!(
-                answer(Asked {
+                answer(CountingControls {
                     phase_bits,
                     runs,
                     ..asked()

@@ -2,7 +2,7 @@
 //!
 //! The code that checks a scene also reads, differentiates and checks the reader's own map.
 
-use qrt_runtime::playground::Answer;
+use qrt_lab::playground::Answer;
 use qrt_scene::expr::{Expr, Variables};
 use qrt_scene::sampling::{ProductLattice, SamplingError, cell_centre, maps};
 use qrt_scene::syntax::{Problem, Step};

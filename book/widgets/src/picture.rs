@@ -6,12 +6,12 @@
 
 use qrt_counting::Comparators;
 use qrt_counting::estimators::{
-    AdaptiveBayes, AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
-    WindowedCounting,
+    AdaptiveBayes, AmplitudeEstimator, CountingProblem, Device, Estimate, EstimatorError, Noise,
+    Settings, WindowedCounting,
 };
 use qrt_counting::random::Stream;
+use qrt_lab::playground::Answer;
 use qrt_runtime::path_machines::Real;
-use qrt_runtime::playground::Answer;
 use qrt_scene::meshes::Meshes;
 use qrt_scene::valid::validate;
 use qrt_scene::{Counting, Estimator};
@@ -171,7 +171,7 @@ impl Picture {
             if self.scale[channel] == 0.0 {
                 continue;
             }
-            let problem = Problem {
+            let problem = CountingProblem {
                 good: self.traced[place].good[channel],
                 total: self.ids(channel),
             };
@@ -315,7 +315,7 @@ mod tests {
     /// Compares the scene with the front end's, and the estimates with those of `qrt render`.
     #[test]
     fn it_is_the_scene_of_the_repository() {
-        use qrt_runtime::render::{Options, render};
+        use qrt_runtime::render::{RenderOptions, render};
         use qrt_scene::Estimator;
         let path = "../../scenes-yaml/cornell-box.yaml".as_ref();
         let mut sets = made::SMALLER.map(str::to_owned).to_vec();
@@ -327,9 +327,9 @@ mod tests {
         for name in ESTIMATORS {
             let rendered = render(
                 &scene,
-                &Options {
+                &RenderOptions {
                     estimator: Estimator::from_name(name),
-                    ..Options::default()
+                    ..RenderOptions::default()
                 },
             );
             let summary = estimated(&mut picture, name, 7, 1000);

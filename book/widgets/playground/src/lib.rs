@@ -3,7 +3,7 @@
 //! The script writes a text and numbers into the module's memory, at the addresses from [`qrt_input`]
 //! and [`qrt_arguments`]. [`qrt_call`] runs the call, and the script reads the [`Answer`] at the
 //! addresses from [`qrt_index`] and [`qrt_numbers`], until the next call. See
-//! [`qrt_runtime::playground`] for the calls.
+//! [`qrt_lab::playground`] for the calls.
 #![warn(
     missing_docs,
     clippy::pedantic,
@@ -17,7 +17,7 @@
 mod examples;
 
 use examples::{EXAMPLES, FILES};
-use qrt_runtime::playground::{Answer, Playground};
+use qrt_lab::playground::{Answer, Playground};
 use qrt_scene::front::Files;
 use std::cell::RefCell;
 

@@ -1,7 +1,7 @@
 //! Calls of the figure `counting`.
 
 use super::answer;
-use crate::counting::{self, Asked};
+use crate::counting::{self, CountingControls};
 use qrt_scene::Window;
 
 /// Calls [`counting::angles`].
@@ -13,7 +13,7 @@ pub extern "C" fn qrt_counting_angles() {
 /// Calls [`counting::answer`]; `sine` is 0 for the rectangular window.
 #[unsafe(no_mangle)]
 pub extern "C" fn qrt_counting(theta: f64, phase_bits: u32, runs: u32, sine: u32, seed: u32) {
-    answer(counting::answer(Asked {
+    answer(counting::answer(CountingControls {
         theta,
         phase_bits,
         runs,

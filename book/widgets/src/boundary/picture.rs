@@ -2,7 +2,7 @@
 
 use super::{NOT_LOADED, answer, text};
 use crate::picture::Picture;
-use qrt_runtime::playground::Answer;
+use qrt_lab::playground::Answer;
 use std::cell::RefCell;
 use std::error::Error;
 
