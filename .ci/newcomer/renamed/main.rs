@@ -25,9 +25,9 @@ fn lit(face: &UInt<2>, good: &mut Bool) {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let options = Options {
-        model: Model::Fixed,
-        ..Options::default()
+    let options = RenderOptions {
+        model: Some(Model::Fixed),
+        ..RenderOptions::default()
     };
     let picture = render_compiled::<Room>(&options)?;
     let counted = count_where::<Room>(&options, |m, path, good| lit(m, &path.ray1.face, good))?;
