@@ -1,9 +1,10 @@
 //! Cost of `qrt!` for a crate that uses it: build time, and bytes of the expansion.
 //!
-//! `cargo bench --bench macros` makes a crate that depends on `qrt` without its command, with scenes
-//! from files: the Cornell box, rendered by its compiled circuit, the same within 500 qubits, and a mesh
-//! of 1,536 triangles. It prints the seconds of its first build (all dependencies, nothing optimised), of
-//! builds after one scene was changed, and of the expansion of the box; and the bytes of this expansion.
+//! `cargo bench --bench macros` makes a crate that depends on `qrt` without its command, with
+//! scenes from files: the Cornell box, rendered by its compiled circuit, the same within 500
+//! qubits, and a mesh of 1,536 triangles. It prints the seconds of its first build (all
+//! dependencies, nothing optimised), of builds after one scene was changed, and of the expansion of
+//! the box; and the bytes of this expansion.
 //!
 //! It fails where a promise is broken, on two cores with nothing else to do: the first build takes
 //! less than 60 seconds, the next one less than 3 with the box, less than 5 with the mesh and less than 15
@@ -12,10 +13,9 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/promises.rs"]
-mod promises;
+mod common;
 
-use promises::Promises;
+use common::{Arguments, Promises};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
@@ -29,7 +29,7 @@ qrt! { pub scene CornellBox from "NAME.yaml" }
 
 fn main() {
     println!("{} qubits, {} Toffolis", CornellBox::QUBITS, CornellBox::TOFFOLI);
-    let options = Options { model: Model::Fixed, crop: Some([20, 40, 2, 2]), ..Options::default() };
+    let options = RenderOptions { crop: Some([20, 40, 2, 2]), ..RenderOptions::default() };
     println!("{} pixels", render_compiled::<CornellBox>(&options).unwrap().image.pixels.len());
 }
 "#;
@@ -41,7 +41,7 @@ qrt! { pub scene Knot from "NAME.yaml" }
 
 fn main() {
     println!("{} qubits, {} Toffolis", Knot::QUBITS, Knot::TOFFOLI);
-    let options = Options { crop: Some([20, 40, 2, 2]), ..Options::default() };
+    let options = RenderOptions { crop: Some([20, 40, 2, 2]), ..RenderOptions::default() };
     println!("{} pixels", render(Knot::scene(), &options).unwrap().image.pixels.len());
 }
 "#;
@@ -87,9 +87,12 @@ const AUTHORS: [Author; 3] = [
 const FEW: &str = "circuit: { uncompute: auto }\nbudget: { qubits: 500 }\n";
 
 fn main() -> ExitCode {
+    common::run_alone(run)
+}
+
+fn run(_: &Arguments, promises: &mut Promises) {
     let user = User::new();
     let first = user.seconds(&["build", "--bin", "cornell"]);
-    let mut promises = Promises::new();
     let mut judge = |what: &str, figure: f64, bar: f64, unit: &str| {
         let what = format!("{what}: {figure:.2} {unit}, below {bar}");
         promises.judge(&what, figure < bar);
@@ -122,7 +125,6 @@ fn main() -> ExitCode {
     judge("expansion", expansion, 0.5, "s");
     judge("expands to", written as f64 / 1e6, 2.0, "MB");
     std::fs::remove_dir_all(&user.folder).ok();
-    promises.exit()
 }
 
 /// The crate of a user.

@@ -8,9 +8,11 @@
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod common;
 #[path = "../tests/pictures/independent.rs"]
 mod independent;
 
+use common::{Arguments, Promises};
 use independent::{asking, mean, reference, rms_difference, scene, traced};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -27,8 +29,8 @@ const SCENES: [(&str, f64, f64); 8] = [
     ("torusknot8k", 0.015, 0.012),
 ];
 
-/// A scene whose reference has an error of 1.5 % itself, more than is promised: only the part of the
-/// difference beyond that is qrt's.
+/// A scene whose reference has an error of 1.5 % itself, more than is promised: only the part of
+/// the difference beyond that is qrt's.
 const NOISY: &str = "cornell_mirrorwall";
 
 /// Promised error of the mean.
@@ -38,15 +40,21 @@ const MEAN: f64 = 0.003;
 const SAMPLED: [(&str, u32); 3] = [("none", 18), ("auto", 16), ("mis", 16)];
 
 fn main() -> ExitCode {
-    let mut kept = true;
+    common::run_alone(run)
+}
+
+fn run(arguments: &Arguments, promises: &mut Promises) {
+    let asked = arguments.word();
+    assert!(
+        asked.is_none_or(|asked| SAMPLED.iter().any(|(lights, _)| *lights == asked)),
+        "none, auto or mis"
+    );
     for (lights, path_bits) in SAMPLED {
-        let asked = std::env::args().any(|word| word == lights);
-        let any = std::env::args().any(|word| SAMPLED.iter().any(|(of, _)| *of == word));
-        if asked || !any {
-            kept &= measure(lights, path_bits);
+        if asked.is_none_or(|asked| asked == lights) {
+            let kept = measure(lights, path_bits);
+            promises.judge(&format!("all differences, lights: {lights}"), kept);
         }
     }
-    ExitCode::from(u8::from(!kept))
 }
 
 /// Returns true if all promises are kept with the way `lights` of sampling lamps.

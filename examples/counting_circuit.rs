@@ -27,7 +27,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = parse(SCENE, "lit-wall.yaml", &[], "".as_ref())?.valid;
 
     // Without amplitudes, the classical machine gives each path's colour, and so S.
-    let all = Arc::new(Oracle::rgb(&scene, qrt::core::oracle::Options::default())?);
+    let all = Arc::new(Oracle::rgb(
+        &scene,
+        qrt::core::oracle::OracleOptions::default(),
+    )?);
     let machine = OracleMachine::fixed(all.clone(), SEED, false);
     let mut good = [0; 3];
     machine.trace(&[PIXEL], 0..machine.paths(), |paths| {
@@ -38,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let total = machine.paths() << all.comparator_bits();
 
     for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
-        let oracle = Oracle::new(&scene, channel, qrt::core::oracle::Options::default())?;
+        let oracle = Oracle::new(&scene, channel, qrt::core::oracle::OracleOptions::default())?;
         let counted = counting_of(&oracle.phase(0, SEED, PIXEL)?, PHASE_BITS, Window::Sine)?;
         let report = &counted.report;
         println!(

@@ -5,8 +5,10 @@
 //! and counted. The chapter "One pixel, from nothing" of the book shows this program in pieces.
 
 // ANCHOR: uses
-use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate, Window};
-use qrt::circuit::{Circuit, Gate, lower};
+use qrt::circuit::quantum::{
+    CircuitPart, CountingCircuit, GroverIterate, PhaseOracle, QuantumGate, Window,
+};
+use qrt::circuit::{Gate, GateCircuit, lower};
 use qrt::counting::maximum_likelihood;
 use qrt::counting::random::Stream;
 use qrt::machines::statevector::{Sparse, StateVector, fold};
@@ -71,9 +73,9 @@ pub(crate) fn oracle() -> Outcome<PhaseOracle> {
         let found = held.find(|(register, _)| *register == program.inputs[input]);
         found.map_or(vec![], |(_, qubits)| qubits.clone())
     };
-    let flip = Circuit {
+    let flip = GateCircuit {
         gates: vec![Gate::Z(qubits(2)[0])],
-        ..Circuit::default()
+        ..GateCircuit::default()
     };
     let index = [qubits(0), qubits(1)].concat();
     Ok(PhaseOracle::new(&compute, &flip, &uncompute, index, &[])?)
@@ -122,9 +124,9 @@ pub(crate) const PHASE_BITS: u32 = 5;
 
 /// The probability of each outcome y = 0 to 16 of the phase register, and one that is drawn.
 pub(crate) fn count(oracle: &PhaseOracle, seed: u64) -> Outcome<(Vec<f64>, u64)> {
-    let counting = Counting::new(oracle, PHASE_BITS, Window::Sine)?;
+    let counting = CountingCircuit::new(oracle, PHASE_BITS, Window::Sine)?;
     let mut machine = Sparse::new(counting.qubits());
-    counting.part(Part::Counting, &mut |gate| machine.gate(gate))?;
+    counting.part(CircuitPart::Counting, &mut |gate| machine.gate(gate))?;
     let register = counting.phase_register();
     let outcomes = fold(&machine.distribution(register)?);
     let y = machine.measure(register, Stream::new(seed, 0, 0, 0).uniform())?;

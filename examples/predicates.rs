@@ -66,10 +66,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // the red wall?
     let pixel = [28, 12];
     let [x, y] = pixel;
-    let one = Options {
-        model: Model::Gates,
+    let one = RenderOptions {
+        model: Some(Model::Gates),
         crop: Some([x, y, 1, 1]),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let counted = count_where::<Corner>(&one, |m, path, good| {
         by_way_of::<SILVER, RED, _>(m, &path.ray0.material, &path.ray1.material, good);
@@ -97,9 +97,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
 
     // The same for the whole film, in floating point and by counting.
-    let film = Options {
-        model: Model::Real,
-        ..Options::default()
+    let film = RenderOptions {
+        model: Some(Model::Real),
+        ..RenderOptions::default()
     };
     let counted = count_where::<Corner>(&film, |m, path, good| {
         near(
@@ -119,14 +119,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rendered = render_where::<Corner>(&film, |m, path, good| {
         on::<SILVER, _>(m, &path.ray0.material, good);
     })?;
-    let file = std::path::Path::new("mirror.png");
-    let metadata = rendered.metadata()?;
-    save(
-        file,
-        &rendered.image,
-        &metadata,
-        Encoding::for_path(file, None)?,
-    )?;
+    rendered.save("mirror.png")?;
     println!("mirror.png: {} queries", rendered.total_queries());
     Ok(())
 }

@@ -70,19 +70,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     state.clean()?;
 
     // All paths of all pixels, by the code compiled from the circuit.
-    let options = Options {
-        model: Model::Fixed,
-        ..Options::default()
+    let options = RenderOptions {
+        model: Some(Model::Fixed),
+        ..RenderOptions::default()
     };
     let rendered = render_compiled::<Steps>(&options)?;
-    let file = std::path::Path::new("scene.png");
-    let metadata = rendered.metadata()?;
-    save(
-        file,
-        &rendered.image,
-        &metadata,
-        Encoding::for_path(file, None)?,
-    )?;
+    rendered.save("scene.png")?;
     println!("scene.png: {} queries", rendered.total_queries());
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! Properties that hold for all bytes: the fuzzer searches for a counterexample, and `cargo test --test scenes`
 //! tries the inputs in the corpora, and mutations of them.
 
-use qrt_circuit::export::{Format, write_program};
+use qrt_circuit::export::{ExportFormat, write_program};
 use qrt_circuit::{
-    Bit, Circuit, Contents, Declaration, Gate, Machine, Operand, Program, Qubit, Recorded,
+    Bit, Contents, Declaration, Gate, GateCircuit, Machine, Operand, Program, Qubit, Recorded,
     Recorder, RegisterId, Style, Type, Word, lower,
 };
-use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, Part, Tile};
+use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, PixelPart, Tile};
 use qrt_runtime::render::Merge;
 use qrt_scene::Scene;
 use qrt_scene::expr::{Domain, Expr, Variable, Variables};
@@ -72,6 +72,36 @@ sampling: { path_bits: 2 }
         let (obj, mtl) = (ended(obj), ended(mtl));
         let ended = read(SCENE, &[("any.obj", &obj), ("any.mtl", &mtl)]);
         assert_eq!(ended, plain, "lines that end in {end:?}");
+    }
+}
+
+/// Reads a PLY or a glTF file, as the first byte says. A glTF file may have its binary data beside it, after a byte 0.
+pub(crate) fn other_mesh(data: &[u8]) {
+    let Some((first, file)) = data.split_first() else {
+        return;
+    };
+    let entry = ["ply: any", "gltf: any"][usize::from(first & 1)];
+    let scene = format!(
+        "
+name: any
+camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ grey: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }} }}
+geometry: [mesh: {{ {entry} }}, mesh: {{ {entry}, material: grey, scale: 0.5, rotate: [10, 20, 30] }}]
+sampling: {{ path_bits: 2 }}
+"
+    );
+    // A PLY file needs a material of the scene.
+    let scene = if *first & 1 == 0 {
+        scene.replace("mesh: { ply: any }, ", "")
+    } else {
+        scene
+    };
+    let cut = file.iter().position(|byte| *byte == 0);
+    let binary = cut.map(|cut| &file[cut + 1..]).unwrap_or_default();
+    let text = &file[..cut.unwrap_or(file.len())];
+    for file in [file, text] {
+        let _ = read(&scene, &[("any", file), ("any.bin", binary)]);
     }
 }
 
@@ -258,7 +288,7 @@ pub(crate) fn openqasm(data: &[u8]) {
     }
     let comment = String::from_utf8_lossy(bytes.0.as_slice()).into_owned();
     let circuit = lower::circuit(&program);
-    for format in [Format::OpenQasm3, Format::OpenQasm2] {
+    for format in [ExportFormat::OpenQasm3, ExportFormat::OpenQasm2] {
         let mut text = Vec::new();
         let comments = [comment.clone()];
         write_program(&program, &[], format, &comments, &mut text).expect("memory takes all");
@@ -267,11 +297,11 @@ pub(crate) fn openqasm(data: &[u8]) {
     }
 }
 
-fn read_openqasm(text: &str, format: Format, circuit: &Circuit) {
+fn read_openqasm(text: &str, format: ExportFormat, circuit: &GateCircuit) {
     let mut lines = text.lines();
     let (version, library) = match format {
-        Format::OpenQasm3 => ("OPENQASM 3.0;", "include \"stdgates.inc\";"),
-        Format::OpenQasm2 => ("OPENQASM 2.0;", "include \"qelib1.inc\";"),
+        ExportFormat::OpenQasm3 => ("OPENQASM 3.0;", "include \"stdgates.inc\";"),
+        ExportFormat::OpenQasm2 => ("OPENQASM 2.0;", "include \"qelib1.inc\";"),
     };
     assert_eq!(lines.next(), Some(version));
     assert_eq!(lines.next(), Some(library));
@@ -289,11 +319,11 @@ fn read_openqasm(text: &str, format: Format, circuit: &Circuit) {
         }
         let statement = line.strip_suffix(';').expect("a statement ends");
         let declared = match format {
-            Format::OpenQasm3 => statement.strip_prefix("qubit[").map(|rest| {
+            ExportFormat::OpenQasm3 => statement.strip_prefix("qubit[").map(|rest| {
                 let (size, name) = rest.split_once("] ").expect("a size and a name");
                 (name, size)
             }),
-            Format::OpenQasm2 => statement.strip_prefix("qreg ").map(|rest| {
+            ExportFormat::OpenQasm2 => statement.strip_prefix("qreg ").map(|rest| {
                 let rest = rest.strip_suffix(']').expect("a size");
                 rest.split_once('[').expect("a name and a size")
             }),
@@ -350,7 +380,7 @@ const WORDS: [&str; 14] = [
 fn follow(
     program: &Program,
     computed: usize,
-    parts: [&Circuit; 2],
+    parts: [&GateCircuit; 2],
     held: &[RegisterId],
     values: &[u64],
 ) {
@@ -362,7 +392,7 @@ fn follow(
         }
     }
     let before = bits.clone();
-    let run = |circuit: &Circuit, bits: &mut Vec<bool>| {
+    let run = |circuit: &GateCircuit, bits: &mut Vec<bool>| {
         for gate in &circuit.gates {
             match *gate {
                 Gate::X(t) => bits[t as usize] ^= true,
@@ -536,15 +566,32 @@ fn strange(path: &Path, bytes: &[u8]) {
     assert!(Merge::default().add("any", bytes).is_err());
 }
 
-/// Appends records to a valid header, each up to a byte 255 and with its checksum. The tiles that are read lie on the
-/// film, and are still there after another tile was appended.
-fn records(path: &Path, data: &[u8]) {
-    let header = render();
-    let mut bytes = started(path, &header);
+/// Appends records to a valid header, each up to a byte 255 and with its checksum.
+fn with_records(path: &Path, header: &Header, data: &[u8]) -> Vec<u8> {
+    let mut bytes = started(path, header);
     for record in data.split(|byte| *byte == 255) {
         bytes.extend(record);
         bytes.extend(crc(record).to_le_bytes());
     }
+    bytes
+}
+
+/// Reads arbitrary records as those of a checkpoint. The tiles that are read lie on the film, and
+/// are still there after another tile was appended. Records of a part of a
+/// picture, whatever their ending, are no whole picture.
+fn records(path: &Path, data: &[u8]) {
+    let mut of_part = render();
+    of_part.options.insert("tile".into(), "0/2".into());
+    let bytes = with_records(path, &of_part, data);
+    std::fs::remove_file(path).expect("it is there");
+    let mut merge = Merge::default();
+    if let Err(error) = merge.add("any", &bytes) {
+        assert!(!error.to_string().is_empty());
+    }
+    // The other portion is missing.
+    assert!(merge.finish().is_err(), "{bytes:?}");
+    let header = render();
+    let bytes = with_records(path, &header, data);
     std::fs::write(path, bytes).expect("a file can be written");
     let (mut checkpoint, mut tiles) = Checkpoint::open(path, &header).expect("it is one");
     let parts = checkpoint.take_parts();
@@ -557,7 +604,7 @@ fn records(path: &Path, data: &[u8]) {
     }
     for part in &parts {
         assert!(inside(part.pixel[0], part.pixel[1], 1, 1), "{part:?}");
-        let same = |other: &&Part| (other.pixel, other.number) == (part.pixel, part.number);
+        let same = |other: &&PixelPart| (other.pixel, other.number) == (part.pixel, part.number);
         assert_eq!(parts.iter().filter(same).count(), 1);
     }
     let new = Tile {

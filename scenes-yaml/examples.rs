@@ -11,6 +11,7 @@ pub(crate) const EXAMPLES: &[(&str, &str)] = &[
     ("knot", include_str!("knot.yaml")),
     ("floor-and-light", include_str!("floor-and-light.yaml")),
     ("furnace", include_str!("furnace.yaml")),
+    ("weekend", include_str!("weekend.yaml")),
 ];
 
 /// The files that they name.

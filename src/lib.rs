@@ -53,24 +53,26 @@
 //! let scene = parse(text, "lit-floor.yaml", &[], "".as_ref())?.valid;
 //!
 //! // All paths of every pixel: under so wide a sky, a floor shows its albedo.
-//! let exact = Options { estimator: Some(Estimator::Exact), ..Options::default() };
+//! let exact = RenderOptions { estimator: Some(Estimator::Exact), ..RenderOptions::default() };
 //! let rendered = render(&scene, &exact)?;
 //! let [red, green, blue] = rendered.image.pixels[8 * 4 + 4];
 //! assert!((red - 0.8).abs() < 0.01 && (green - 0.5).abs() < 0.01 && (blue - 0.2).abs() < 0.01);
 //!
 //! // The same by quantum counting, the scene's default, with the noise of its measurements.
-//! let counted = render(&scene, &Options { seed: 7, ..Options::default() })?;
+//! let counted = render(&scene, &RenderOptions { seed: 7, ..RenderOptions::default() })?;
 //! assert!(counted.total_queries() > 0);
 //!
 //! let path = std::env::temp_dir().join(format!("qrt-facade-{}.exr", std::process::id()));
-//! save(&path, &counted.image, &counted.metadata()?, Encoding::for_path(&path, None)?)?;
+//! counted.save(&path)?;
 //! # std::fs::remove_file(path).ok();
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The feature `cli`, which is the default, contains all others: `png` and `exr` write pictures of these
-//! kinds, `serde` reads and writes scenes and their parts. A crate that sets `default-features = false`
-//! builds none of their dependencies.
+//! The feature `cli`, which is the default, contains all others: `png` and `exr` write pictures of
+//! these kinds, `gltf` reads meshes of glTF files, `parts` renders a picture in parts and merges
+//! them, `serde` reads and writes scenes and their parts, and `lab` has what studies a scene: checks
+//! of its circuit, measurements of its error, physical resources, drawings, and exports to Mitsuba 3.
+//! A crate that sets `default-features = false` builds none of their dependencies.
 //!
 //! [`scene`] reads and checks scenes, and [`core`] takes a checked scene to its oracle: the tracer and
 //! the compiler. [`machines`] run circuits, [`counting`] estimates amplitudes, and [`runtime`] renders
@@ -109,15 +111,19 @@ pub use qrt_circuit as circuit;
 pub use qrt_core as core;
 pub use qrt_counting as counting;
 pub use qrt_drawing as drawing;
+#[cfg(feature = "lab")]
+pub use qrt_lab as lab;
 pub use qrt_machines as machines;
 #[doc = include_str!("scene_macro.md")]
 pub use qrt_macros::qrt;
-#[doc(hidden)]
-pub use qrt_macros::qrt_with_terms as __qrt_with_terms;
 #[doc = include_str!("reversible.md")]
 pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 /// The scene language: scenes, their checks, and the sequences of paths.
 pub use qrt_scene as scene;
+
+/// Names of the standard library in the code of the macros: a crate without it has no `::std`.
+#[doc(hidden)]
+pub extern crate std as __std;
 
 pub mod prelude;

@@ -50,17 +50,7 @@ pub use qrt_circuit::{Bit, Machine, Operand, Program, Recorder, Style, When, Wor
 /// ```
 /// use qrt::prelude::*;
 ///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
+#[doc = include_str!("glow.txt")]
 /// fn operations<C: CompiledOracle>() -> usize {
 ///     C::program().ops.len()
 /// }
@@ -72,17 +62,7 @@ pub use qrt_core::oracle::compiled::CompiledOracle;
 /// ```
 /// use qrt::prelude::*;
 ///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
+#[doc = include_str!("glow.txt")]
 /// fn faces<S: PathScene>() -> usize {
 ///     S::scene().polygons().len()
 /// }
@@ -103,7 +83,7 @@ pub use qrt_core::oracle::paths::PathScene;
 ///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3] })
 ///     .quad("lamp", [[0., -9., 0.], [9., -9., 0.], [9., 9., 0.], [0., 9., 0.]])
 ///     .build();
-/// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::Options::default())?;
+/// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::OracleOptions::default())?;
 /// // The program of the upper left pixel under the seed 1.
 /// let program: BoundProgram = oracle.program_at(1, [0, 0]);
 /// assert_eq!((program.pixel(), program.paths()), ([0, 0], 4));
@@ -113,28 +93,18 @@ pub use qrt_core::oracle::{BoundProgram, Oracle};
 /// A predicate of a scene's paths, and the two oracles that it makes.
 ///
 /// ```
-/// use qrt::core::oracle::Options as Compile;
+/// use qrt::core::oracle::OracleOptions;
 /// use qrt::prelude::*;
 ///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
+#[doc = include_str!("glow.txt")]
 /// #[reversible]
 /// fn meets(found: &Bool, good: &mut Bool) {
 ///     good ^= found;
 /// }
 ///
 /// let predicate = Predicate::record::<Glow>(|m, path, good| meets(m, &path.ray0.found, good))?;
-/// let paths = predicate.oracle(Marks::Paths, Compile::default())?;
-/// let light = predicate.oracle(Marks::Light, Compile::default())?;
+/// let paths = predicate.oracle(Marks::Paths, OracleOptions::default())?;
+/// let light = predicate.oracle(Marks::Light, OracleOptions::default())?;
 /// assert_eq!((paths.channels.len(), light.channels.len()), (1, 3));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -143,7 +113,8 @@ pub use qrt_core::oracle::{Marks, Predicate};
 ///
 /// ```
 /// use qrt::prelude::*;
-/// use qrt::counting::estimators::{Device, Estimate, EstimatorError, Exact, Noise, Problem};
+/// use qrt::counting::estimators::{CountingProblem, Device, Estimate, EstimatorError};
+/// use qrt::counting::estimators::{Exact, Noise};
 /// use qrt::counting::random::Stream;
 ///
 /// /// Counts nothing, and says so by its interval.
@@ -156,7 +127,7 @@ pub use qrt_core::oracle::{Marks, Predicate};
 /// }
 ///
 /// let mut stream = Stream::new(1, 0, 0, 0);
-/// let mut device = Device::new(Problem { good: 3, total: 8 }, Noise::NONE, &mut stream)?;
+/// let mut device = Device::new(CountingProblem { good: 3, total: 8 }, Noise::NONE, &mut stream)?;
 /// assert_eq!(Half.estimate(&mut device)?.queries, 0);
 /// assert_eq!(Exact.estimate(&mut device)?.amplitude, 3.0 / 8.0);
 /// # Ok::<(), EstimatorError>(())
@@ -167,17 +138,7 @@ pub use qrt_counting::estimators::AmplitudeEstimator;
 /// ```
 /// use qrt::prelude::*;
 ///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
+#[doc = include_str!("glow.txt")]
 /// // Path 3 of the right column: red exceeds all 2^10 comparators.
 /// let (mut state, id) = State::path::<Glow>(0, [1, 0], 3)?;
 /// let red = Glow::within(&mut state, &id, |state, path| state.operand(path.counts()[0]));
@@ -215,8 +176,7 @@ pub use qrt_macros::{qrt, reversible};
 /// let mut about = Metadata::new();
 /// about.set("author", "me")?;
 ///
-/// let folder = std::env::temp_dir();
-/// let path = folder.join(format!("qrt-prelude-{}.png", std::process::id()));
+/// let path = std::env::temp_dir().join(format!("qrt-prelude-{}.png", std::process::id()));
 /// save(&path, &image, &about, Encoding::for_path(&path, Some(1.0))?)?;
 /// let mut bytes = Vec::new();
 /// write_to(&mut bytes, &image, &[], &about, Encoding::Png { exposure: 1.0 })?;
@@ -237,6 +197,27 @@ pub use qrt_macros::{qrt, reversible};
 pub use qrt_runtime::image::{
     Encoding, Image, ImageError, Metadata, save, write_counts, write_counts_to, write_to,
 };
+/// Creates the state at the start of a path, on which the code of `qrt!` runs.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// qrt! {
+///     scene Glow {
+///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+///         film: 2 x 2,
+///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
+///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
+///         sampling { path_bits: 2 },
+///         depth primary { bits: (2, 2) },
+///     }
+/// }
+///
+/// let (state, index) = <State as PathState>::path::<Glow>(0, [1, 0], 3)?;
+/// assert_eq!(state.bits(&index), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub use qrt_runtime::path_machines::PathState;
 /// Runs the program of one pixel on each machine: the good comparators of each path, by channel.
 ///
 /// ```
@@ -251,61 +232,26 @@ pub use qrt_runtime::image::{
 ///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3] })
 ///     .quad("lamp", [[0., -9., 0.], [9., -9., 0.], [9., 9., 0.], [0., 9., 0.]])
 ///     .build();
-/// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::Options::default())?;
+/// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::OracleOptions::default())?;
 /// // The lamp fills the right column and leaves the left one dark.
 /// assert_eq!(run_paths::on_fixed(&oracle.program_at(1, [0, 0]), 0..4)?, [[0, 0, 0]; 4]);
 /// assert_eq!(run_paths::on_gates(&oracle.program_at(1, [1, 0]), 0..4)?, [[1024, 1024, 0]; 4]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use qrt_runtime::path_machines::run_paths;
-/// Code for many paths, and the start of one.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
-/// fn picture<C: NativeOracle>() -> Result<Rendered, RenderError> {
-///     render_compiled::<C>(&Options { model: Model::Fixed, ..Options::default() })
-/// }
-/// assert_eq!(picture::<Glow>()?.image.pixels.len(), 4);
-/// let (state, index) = <State as PathState>::path::<Glow>(0, [1, 0], 3)?;
-/// assert_eq!(state.bits(&index), 3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub use qrt_runtime::path_machines::{NativeOracle, PathState};
 /// Predicates on the paths of a scene: counts and renders those that satisfy them.
 ///
 /// ```
 /// use qrt::prelude::*;
 ///
-/// qrt! {
-///     scene Glow {
-///         camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
-///         film: 2 x 2,
-///         material lamp: emitter { radiance: rgb(1, 0.5, 0) },
-///         quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
-///         sampling { path_bits: 2 },
-///         depth primary { bits: (2, 2) },
-///     }
-/// }
-///
+#[doc = include_str!("glow.txt")]
 /// #[reversible]
 /// fn meets(found: &Bool, good: &mut Bool) {
 ///     good ^= found;
 /// }
 ///
 /// // The right half of the film.
-/// let exact = Options { estimator: Some(Estimator::Exact), ..Options::default() };
+/// let exact = RenderOptions { estimator: Some(Estimator::Exact), ..RenderOptions::default() };
 /// let counted = count_where::<Glow>(&exact, |m, path, good| meets(m, &path.ray0.found, good))?;
 /// assert_eq!(counted.fraction(), 0.5);
 /// let light = render_where::<Glow>(&exact, |m, path, good| meets(m, &path.ray0.found, good))?;
@@ -331,23 +277,25 @@ pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
 ///     }
 /// }
 ///
-/// let fixed = Options { model: Model::Fixed, ..Options::default() };
+/// let fixed = RenderOptions { model: Some(Model::Fixed), ..RenderOptions::default() };
 /// let built: Rendered = render(Glow::scene(), &fixed)?;
-/// assert_eq!(built.image, render_compiled::<Glow>(&fixed)?.image);
+/// assert_eq!(built.image, render_compiled::<Glow>(&RenderOptions::default())?.image);
 ///
 /// // Compiled code runs on a circuit's models alone.
-/// let refused: RenderError = render_compiled::<Glow>(&Options::default()).unwrap_err();
+/// let real = RenderOptions { model: Some(Model::Real), ..RenderOptions::default() };
+/// let refused: RenderError = render_compiled::<Glow>(&real).unwrap_err();
 /// assert!(matches!(refused, RenderError::Compiled(CompiledError::Model)));
 ///
 /// // By an estimator of one's own: here a known one, under another name.
 /// use qrt::counting::estimators::estimator;
 /// let own = OwnEstimator::new("mine", &|settings| estimator(Estimator::Sine, settings));
-/// let counted = render(Glow::scene(), &Options { own_estimator: Some(own), ..fixed })?;
+/// let counted = render(Glow::scene(), &RenderOptions { own_estimator: Some(own), ..fixed })?;
 /// assert_eq!(counted.own_estimator.as_deref(), Some("mine"));
 /// # Ok::<(), RenderError>(())
 /// ```
 pub use qrt_runtime::render::{
-    CompiledError, Model, Options, OwnEstimator, RenderError, Rendered, render, render_compiled,
+    CompiledError, Model, OwnEstimator, RenderError, RenderOptions, Rendered, render,
+    render_compiled,
 };
 /// The number of threads, and their progress.
 ///
@@ -363,7 +311,7 @@ pub use qrt_runtime::render::{
 /// };
 /// let workers = Workers { threads: std::num::NonZeroUsize::new(1), progress: Some(&told), cancel: None };
 /// let scene = Scene::builder("dark").film(3, 2).path_bits(4).build().validate("".as_ref())?;
-/// render(&scene, &Options { workers, ..Options::default() })?;
+/// render(&scene, &RenderOptions { workers, ..RenderOptions::default() })?;
 /// assert_eq!(paths.into_inner(), 3 * 2 << 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

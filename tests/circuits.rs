@@ -7,6 +7,7 @@ mod circuits {
     mod openqasm;
     mod paths;
     mod rays;
+    mod simulate;
 
     mod bound_programs;
     mod coarse_scenes;

@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod macros {
-    mod bsdf_terms;
     mod compiled_scenes;
     mod macro_scene;
     mod predicates;
     mod reversible;
     mod textbook;
+    mod whole_registers;
     mod widths_and_types;
 }

@@ -21,6 +21,7 @@ mod pictures {
     mod references;
     mod same_picture;
     mod searched_pictures;
+    mod spheres;
     mod stopping;
     mod strata_of_thresholds;
 }

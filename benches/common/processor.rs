@@ -16,3 +16,23 @@ pub(crate) fn seconds() -> f64 {
     static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
     STARTED.elapsed().as_secs_f64()
 }
+
+/// Least seconds that are measured together.
+const LEAST: f64 = 0.1;
+
+/// Returns the processor's seconds of a run, the least of `runs` measurements. Each repeats the run for at
+/// least `LEAST` seconds, so that a coarse clock errs by less than a tenth.
+pub(crate) fn least(runs: usize, mut run: impl FnMut()) -> f64 {
+    let mut timed = |times: u32| {
+        let started = seconds();
+        (0..times).for_each(|_| run());
+        (seconds() - started) / f64::from(times)
+    };
+    let mut times = 1;
+    while timed(times) * f64::from(times) < LEAST {
+        times *= 2;
+    }
+    (0..runs)
+        .map(|_| timed(times))
+        .fold(f64::INFINITY, f64::min)
+}

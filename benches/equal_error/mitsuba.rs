@@ -1,7 +1,7 @@
 //! Runs Mitsuba 3 through `benches/peers/path_tracing.py`.
 
 use super::curve::{Curve, Point};
-use qrt_runtime::mitsuba;
+use qrt_lab::mitsuba;
 use qrt_scene::front;
 use serde_json::Value;
 use std::fs;

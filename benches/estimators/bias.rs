@@ -6,8 +6,8 @@
 use super::expected::{Expected, Verdicts};
 use super::problems::TOTAL;
 use super::runs::Run;
-use qrt::counting::estimators::Problem;
-use qrt::runtime::render::{Model, Options, render};
+use qrt::counting::estimators::CountingProblem;
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front;
 use std::fmt::Write as _;
@@ -58,10 +58,10 @@ impl Picture {
         let file = format!("scenes-yaml/{}.yaml", self.scene);
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
         let loaded = front::load(&path, &all).unwrap_or_else(|report| panic!("{report}"));
-        let options = Options {
-            model: Model::Fixed,
+        let options = RenderOptions {
+            model: Some(Model::Fixed),
             seed,
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let rendered = render(&loaded.valid, &options).unwrap_or_else(|error| panic!("{error}"));
         let counted = rendered.counts().filter(|count| count.scale > 0.0);
@@ -213,7 +213,7 @@ impl Table {
                 continue;
             }
             let good = (a * TOTAL as f64).round() as u64;
-            let problem = Problem { good, total: TOTAL };
+            let problem = CountingProblem { good, total: TOTAL };
             let outcomes = run.outcomes(runs, |_| problem);
             let found = Errors::of(outcomes.iter().map(|o| (o.error, o.truth)));
             print!(" {:+.1e} |", found.bias);

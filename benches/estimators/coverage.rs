@@ -2,7 +2,7 @@
 
 use super::expected::{Expected, Verdicts};
 use super::runs::Run;
-use qrt::counting::estimators::Problem;
+use qrt::counting::estimators::CountingProblem;
 use qrt::scene::Estimator;
 use std::fmt::Write as _;
 
@@ -35,7 +35,7 @@ pub(crate) fn table(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) {
                     let even = (f64::from(run) + 0.5) / f64::from(runs);
                     let fraction = amplitude.unwrap_or(even);
                     let good = (fraction * total as f64).round() as u64;
-                    Problem { good, total }
+                    CountingProblem { good, total }
                 };
                 let run = Run {
                     name,

@@ -2,8 +2,8 @@
 
 use super::problems::Problems;
 use super::runs::{Point, cost, slopes};
+use crate::common::Promises;
 use qrt::scene::Estimator;
-use std::fmt;
 
 /// Expected figures of an estimator.
 pub(crate) struct Expected {
@@ -128,8 +128,12 @@ impl Verdicts {
         self.0.push((kept, promise));
     }
 
-    pub(crate) fn all_kept(&self) -> bool {
-        self.0.iter().all(|verdict| verdict.0)
+    /// Judges all promises, behind the tables that they are about.
+    pub(crate) fn finish(&self, promises: &mut Promises) {
+        println!();
+        for (kept, promise) in &self.0 {
+            promises.judge(promise, *kept);
+        }
     }
 
     /// Judges slopes and costs. On pixels, which are mostly dark, only the slopes of some estimators are
@@ -185,15 +189,5 @@ impl Verdicts {
                 format!("{name}: queries times q95 {most:.2}, at most 2"),
             );
         }
-    }
-}
-
-impl fmt::Display for Verdicts {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (kept, promise) in &self.0 {
-            let word = if *kept { "kept  " } else { "BROKEN" };
-            writeln!(f, "{word} {promise}")?;
-        }
-        Ok(())
     }
 }

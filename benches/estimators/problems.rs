@@ -1,7 +1,7 @@
 //! The estimation problems: amplitudes spread evenly, or the pixels of a picture.
 
-use qrt::counting::estimators::Problem;
-use qrt::runtime::render::{Model, Options, render};
+use qrt::counting::estimators::CountingProblem;
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front;
 use std::fmt;
@@ -12,7 +12,10 @@ pub(crate) enum Problems {
     /// Amplitudes spread evenly over [0, 1], one for each run.
     Even,
     /// Every channel of the Cornell box's pixels, in their order, as often as needed.
-    Pixels { film: u32, list: Vec<Problem> },
+    Pixels {
+        film: u32,
+        list: Vec<CountingProblem>,
+    },
 }
 
 /// Number of indices for amplitudes that are spread evenly.
@@ -33,15 +36,15 @@ impl Problems {
         ];
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/cornell-box.yaml");
         let loaded = front::load(&scene, &sets).unwrap_or_else(|report| panic!("{report}"));
-        let options = Options {
-            model: Model::Fixed,
+        let options = RenderOptions {
+            model: Some(Model::Fixed),
             estimator: Some(Estimator::Exact),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let rendered = render(&loaded.valid, &options).unwrap_or_else(|error| panic!("{error}"));
         let list = rendered
             .counts()
-            .map(|count| Problem {
+            .map(|count| CountingProblem {
                 good: count.good.expect("the fixed machine counts ids"),
                 total: count.total,
             })
@@ -57,11 +60,11 @@ impl Problems {
         }
     }
 
-    pub(crate) fn problem(&self, run: u32, runs: u32) -> Problem {
+    pub(crate) fn problem(&self, run: u32, runs: u32) -> CountingProblem {
         match self {
             Self::Even => {
                 let fraction = (f64::from(run) + 0.5) / f64::from(runs);
-                Problem {
+                CountingProblem {
                     good: (fraction * TOTAL as f64) as u64,
                     total: TOTAL,
                 }

@@ -1,7 +1,7 @@
 //! Many runs of one estimator.
 
 use super::problems::Problems;
-use qrt::counting::estimators::{Device, Noise, Problem, Settings, estimator};
+use qrt::counting::estimators::{CountingProblem, Device, Noise, Settings, estimator};
 use qrt::counting::random::Stream;
 use qrt::drawing::Fit;
 use qrt::scene::{Counting, Estimator, Window};
@@ -54,7 +54,7 @@ impl Run {
     pub(crate) fn outcomes(
         &self,
         runs: u32,
-        problem: impl Fn(u32) -> Problem + Sync,
+        problem: impl Fn(u32) -> CountingProblem + Sync,
     ) -> Vec<Outcome> {
         let estimator = estimator(self.name, &self.settings()).unwrap();
         let one = |run: u32| {

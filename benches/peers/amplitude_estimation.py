@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds qrt's iterative and maximum likelihood estimation against Qiskit's.
 
-    cargo bench --bench estimators -- --csv estimators.csv
+    cargo bench --bench estimators -- errors --csv estimators.csv
     benches/peers/amplitude_estimation.py --venv FOLDER --csv estimators.csv
 
 Qiskit's estimators run on amplitudes spread evenly over [0, 1], each a rotation of one qubit, which is

@@ -3,7 +3,7 @@
 
     counting.py --venv FOLDER --tool lightning|qsim < circuit.json
 
-The circuit is what `cargo bench --bench statevector` writes: `qubits`, the `counter` register (bit 0
+The circuit is what `cargo bench --bench machines -- statevector` writes: `qubits`, the `counter` register (bit 0
 first), and the gates of its preparation, of one query under each counting qubit, and of the inverse
 Fourier transform. A query under counting qubit j is repeated 2^j times. Gates are lists:
 

@@ -3,7 +3,7 @@
     pip install flip-evaluator==1.7 numpy
     python benches/peers/flip.py
 
-prints the figures that `qrt-runtime/src/image/compare/tests.rs` holds.
+prints the figures that `qrt-lab/src/compare/tests.rs` holds.
 """
 
 import flip_evaluator

@@ -296,7 +296,8 @@ def compare(qrt, checks):
         f"signs turned by the oracle, run by Qiskit's gates: {turned} of {total}; {good} are good",
     )
 
-    answer = qrt.run("inspect", scene, "--json", "--channel", "g", sets=SMALL)
+    pixel = ["--pixel", f"{x},{y}"]
+    answer = qrt.run("inspect", scene, "--json", "--channel", "g", *pixel, sets=SMALL)
     inspected = json.loads(answer)["gates"]["toffoli"]
     toffoli = qsharp(text)[TOFFOLIS]
     checks.say(

@@ -4,7 +4,7 @@
     python3 benches/peers/scaling.py SCENE [--set KEY=VALUE ...] [--command target/release/qrt]
 
 Needs the Python package (`pip install ./python`), and a command of the same build. For n = 1, 2 and 4
-it renders the scene twice: by n processes `qrt render --tile k/n --threads 1` at once, which `qrt merge`
+it renders the scene twice: by n processes `qrt render --portion k/n --threads 1` at once, which `qrt merge`
 puts together; and by `qrt.distributed.render` with a ProcessPoolExecutor of n workers that are started
 already. Each picture must have the bytes of the others.
 
@@ -70,11 +70,11 @@ def by_pool(scene, workers, folder, seed):
 
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context) as pool:
-        # All workers have started and imported the package before the first tile.
+        # All workers have started and imported the package before the first portion.
         list(pool.map(warm, range(4 * workers)))
         counted = Timed(pool)
         merging = []
-        merge = qrt._tiles.merge
+        merge = qrt._portions.merge
 
         def merged(parts):
             began = time.monotonic()
@@ -82,12 +82,12 @@ def by_pool(scene, workers, folder, seed):
             merging.append(time.monotonic() - began)
             return picture
 
-        qrt._tiles.merge = merged
+        qrt._portions.merge = merged
         began = time.monotonic()
         try:
             picture = qrt.distributed.render(scene, counted, seed=seed)
         finally:
-            qrt._tiles.merge = merge
+            qrt._portions.merge = merge
         wall = time.monotonic() - began - merging[0]
     picture.save(folder / "pool.exr")
     row = (wall, counted.seconds, counted.bytes, merging[0])
@@ -103,12 +103,12 @@ def warm(number):
 
 
 def by_command(command, words, workers, folder, seed):
-    """A row of `qrt render --tile`, and the picture's bytes."""
+    """A row of `qrt render --portion`, and the picture's bytes."""
     names = [folder / f"part.{k}" for k in range(workers)]
     began = time.monotonic()
     running = {}
     for k, name in enumerate(names):
-        own = ["--tile", f"{k}/{workers}", "-o", name, "--threads", "1", "--seed", seed, "-q"]
+        own = ["--portion", f"{k}/{workers}", "-o", name, "--threads", "1", "--seed", seed, "-q"]
         child = subprocess.Popen([command, "render", *words, *map(str, own)])
         running[child.pid] = child
     seconds = []
@@ -139,10 +139,10 @@ def costs(scene, command, words, folder, film, parts):
     names = [folder / f"large.{k}" for k in range(parts)]
     first = None
     for k, name in enumerate(names):
-        tile = ["--tile", f"{k}/{parts}", "-o", name, "--threads", "1", "-q"]
-        first = first or spent([command, "render", *large, *tile])
+        portion = ["--portion", f"{k}/{parts}", "-o", name, "--threads", "1", "-q"]
+        first = first or spent([command, "render", *large, *portion])
         if k:
-            subprocess.run([command, "render", *map(str, [*large, *tile])], check=True)
+            subprocess.run([command, "render", *map(str, [*large, *portion])], check=True)
     yield (
         f"one of {parts} parts of {width} x {height} pixels, of one path each: {first[0]:.2f} s of a "
         f"processor, {first[1] / 1e6:.0f} MB at the most"
@@ -191,9 +191,9 @@ def main():
     pictures = set()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        for way in ("`--tile k/n`", "`qrt.distributed`"):
+        for way in ("`--portion k/n`", "`qrt.distributed`"):
             for workers in WORKERS:
-                if way == "`--tile k/n`":
+                if way == "`--portion k/n`":
                     row, picture = by_command(asked.command, words, workers, folder, asked.seed)
                 else:
                     row, picture = by_pool(scene, workers, folder, asked.seed)

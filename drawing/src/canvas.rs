@@ -64,7 +64,7 @@ impl Canvas {
     }
 
     /// Adds a text, followed by `aside` in the soft colour.
-    pub fn text_and(&mut self, class: &str, at: [f64; 2], text: &str, aside: &str) {
+    pub(crate) fn text_and(&mut self, class: &str, at: [f64; 2], text: &str, aside: &str) {
         let ([x, y], class, text) = (at.map(number), classes(class), escaped(text));
         if aside.is_empty() {
             self.push(format_args!(
@@ -93,7 +93,7 @@ impl Canvas {
     }
 
     /// Adds a path with the path data `d`, whose origin is moved to `at`.
-    pub fn path_at(&mut self, class: &str, at: [f64; 2], d: &str) {
+    pub(crate) fn path_at(&mut self, class: &str, at: [f64; 2], d: &str) {
         let [x, y] = at.map(number);
         self.push(format_args!(
             "<path class=\"{class}\" transform=\"translate({x} {y})\" d=\"{d}\"/>"

@@ -27,4 +27,4 @@ pub use canvas::{Canvas, SMALL, number, polyline, text_width};
 pub use escape::escaped;
 pub use palette::{STYLES, coloured, style_sheet};
 pub use panel::{Panel, minus, ticks};
-pub use plot::{Axis, Drawn, Fit, Plot, Point, Scale, Series};
+pub use plot::{Drawn, Fit, Plot, PlotAxis, Point, Scale, Series};

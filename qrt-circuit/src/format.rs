@@ -81,9 +81,20 @@ pub const fn width(bits: i64) -> u32 {
     bits as u32
 }
 
+/// Number of bits of the longest of a table's numbers: at least 1, and 64 if one is negative.
+#[doc(hidden)]
+pub const fn entry_bits(entries: &[i64]) -> u32 {
+    let (mut all, mut at) = (1, 0);
+    while at < entries.len() {
+        all |= entries[at];
+        at += 1;
+    }
+    64 - all.leading_zeros()
+}
+
 /// The expected format of a routine's parameter, computed from the routine's constants.
 #[doc(hidden)]
-pub trait Expected {
+pub trait ExpectedFormat {
     /// The format.
     type Format: Format;
     /// The message for a register of another format.
@@ -93,7 +104,7 @@ pub trait Expected {
 /// Fails to compile if the register's format is not the expected one.
 #[doc(hidden)]
 #[inline(always)]
-pub fn agree<E: Expected, R, T: Format>(_: Option<&Reg<R, T>>) {
+pub fn agree<E: ExpectedFormat, R, T: Format>(_: Option<&Reg<R, T>>) {
     const {
         let same = match (T::TYPE, E::Format::TYPE) {
             (Type::Bool, Type::Bool) | (Type::UInt, Type::UInt) | (Type::Int, Type::Int) => true,

@@ -3,7 +3,7 @@
 use super::{Parameter, RegisterId};
 use std::ops::Range;
 
-/// The index of a qubit of a [`Circuit`].
+/// The index of a qubit of a [`GateCircuit`].
 pub type Qubit = u32;
 
 /// A gate on basis states. Each gate is its own inverse.
@@ -18,7 +18,7 @@ pub enum Gate {
     /// Flips the qubit where bit `bit` of classical parameter `parameter` is set. In the circuit of
     /// a pixel, that is an X or nothing.
     Load {
-        /// The parameter's index in [`Circuit::parameters`].
+        /// The parameter's index in [`GateCircuit::parameters`].
         parameter: u32,
         /// The parameter's bit, 0 the least significant.
         bit: u32,
@@ -30,7 +30,7 @@ pub enum Gate {
 }
 
 /// A receiver of gates, one after another.
-pub trait Gates {
+pub trait GateSink {
     /// Receives the next gate.
     fn gate(&mut self, gate: Gate);
 
@@ -51,7 +51,7 @@ pub trait Gates {
     }
 }
 
-impl Gates for Vec<Gate> {
+impl GateSink for Vec<Gate> {
     fn gate(&mut self, gate: Gate) {
         self.push(gate);
     }
@@ -59,10 +59,10 @@ impl Gates for Vec<Gate> {
 
 /// A program lowered to gates.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Circuit {
+pub struct GateCircuit {
     /// The gates, in the order in which they run.
     pub gates: Vec<Gate>,
-    /// The range of [`Circuit::gates`] of each instruction of the program.
+    /// The range of [`GateCircuit::gates`] of each instruction of the program.
     pub ranges: Vec<Range<usize>>,
     /// Number of qubits: the most that are in use at any time.
     pub qubits: u32,

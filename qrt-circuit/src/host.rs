@@ -6,6 +6,7 @@
 //! where it could not be undone. A caller knows the functions that are running, so an endless
 //! recursion does not compile.
 
+use super::format::{Format, Reg};
 use super::machine::Machine;
 use std::fmt;
 use std::marker::PhantomData;
@@ -84,18 +85,37 @@ const fn equal(a: &[u8], b: &[u8]) -> bool {
 }
 
 /// A running function and its callers, as a type.
-pub trait Frame {
+pub trait CallFrame {
     /// The function and its callers as a value.
     const RUNNING: &'static Running;
+    /// True if the function is undone.
+    const UNDONE: bool;
 }
 
-/// The caller of a reversible function: a reversible function on its machine, forwards or undone.
-pub struct Caller<'a, M, F, const UNDONE: bool> {
+/// A host that undoes what runs on it.
+#[derive(Debug)]
+pub struct Undone<'a, H>(pub &'a mut H);
+
+impl<H: Host> Host for Undone<'_, H> {
+    type Register = H::Register;
+    type Machine = H::Machine;
+    const UNDONE: bool = !H::UNDONE;
+    const RUNNING: Option<&'static Running> = H::RUNNING;
+
+    #[inline(always)]
+    fn machine(&mut self) -> &mut H::Machine {
+        self.0.machine()
+    }
+}
+
+/// The caller of a reversible function: a reversible function on its machine. `INVERSE` is true if
+/// the call is of the function's inverse.
+pub struct Caller<'a, M, F, const INVERSE: bool> {
     machine: &'a mut M,
     frame: PhantomData<F>,
 }
 
-impl<'a, M: Machine, F: Frame, const UNDONE: bool> Caller<'a, M, F, UNDONE> {
+impl<'a, M: Machine, F: CallFrame, const INVERSE: bool> Caller<'a, M, F, INVERSE> {
     /// Creates the caller for the function `F`, which runs on `machine`.
     #[inline(always)]
     pub fn new(machine: &'a mut M) -> Self {
@@ -107,12 +127,16 @@ impl<'a, M: Machine, F: Frame, const UNDONE: bool> Caller<'a, M, F, UNDONE> {
 
     /// Calls a reversible function with `registers`.
     #[inline(always)]
-    pub fn call<G, H, P>(mut self, function: G, registers: impl Handed<P>)
+    pub fn call<G, H, P, Q>(mut self, function: G, registers: Q)
     where
         G: Reversible<H, P>,
         H: Is<Self>,
+        P: Registers<M::Register>,
+        Q: Registers<M::Register>,
+        Q::Formats: Handed<P::Formats>,
     {
-        function.run(H::is(&mut self), registers.handed());
+        let registers = <Q::Formats as Handed<P::Formats>>::handed::<M::Register>(registers);
+        function.run(H::is(&mut self), registers);
     }
 }
 
@@ -140,35 +164,80 @@ impl<H> Is<H> for (H,) {
     }
 }
 
-/// The registers that a function takes, `P`: their number and formats must agree.
+/// A tuple of borrowed registers of a machine whose registers are `R`.
+pub trait Registers<R>: Sized {
+    /// The registers' formats, borrowed as the registers are: `(&UInt<4>, &mut UInt<8>)`.
+    type Formats: Formats<R, Registers = Self>;
+}
+
+/// The formats of borrowed registers.
+pub trait Formats<R> {
+    /// The registers of a machine whose registers are `R`.
+    type Registers;
+}
+
+/// A borrowed register, or all registers of a borrowed array.
+pub trait BorrowedRegister<R>: Sized {
+    /// The format, borrowed as the register is.
+    type Format: Formats<R, Registers = Self>;
+}
+
+macro_rules! argument {
+    ($([$($generic:tt)*] $borrowed:ty = $format:ty;)*) => { $(
+        impl<'a, R, F: Format, $($generic)*> BorrowedRegister<R> for $borrowed {
+            type Format = $format;
+        }
+
+        impl<'a, R: 'a, F: Format, $($generic)*> Formats<R> for $format {
+            type Registers = $borrowed;
+        }
+    )* };
+}
+
+argument! {
+    [] &'a Reg<R, F> = &'a F;
+    [] &'a mut Reg<R, F> = &'a mut F;
+    [const N: usize] &'a [Reg<R, F>; N] = &'a [F; N];
+    [const N: usize] &'a mut [Reg<R, F>; N] = &'a mut [F; N];
+}
+
+/// The formats of the registers of a call. `T` are those that the function takes: their number and
+/// formats must agree. Neither names the machine, so the compiler shows the error once, although a
+/// reversible function is compiled for several machines.
 #[diagnostic::on_unimplemented(
-    message = "these are not the registers that the function takes [QRT0813]",
+    message = "the function takes `{T}`, and is handed `{Self}` [QRT0813]",
     label = "of another number, format or reference",
     note = "help: hand over a register for each parameter, of its format, by `&` or `&mut` as it is \
             declared; one whose width is computed goes where the parameter's is"
 )]
-pub trait Handed<P> {
+pub trait Handed<T> {
     /// Returns the registers unchanged.
-    fn handed(self) -> P;
+    fn handed<R>(registers: Self::Registers) -> T::Registers
+    where
+        Self: Formats<R>,
+        T: Formats<R>;
 }
 
-impl<P> Handed<P> for P {
+impl<T> Handed<T> for T {
     #[inline(always)]
-    fn handed(self) -> P {
-        self
+    fn handed<R>(registers: T::Registers) -> T::Registers
+    where
+        T: Formats<R>,
+    {
+        registers
     }
 }
 
-impl<M, F, const UNDONE: bool> fmt::Debug for Caller<'_, M, F, UNDONE> {
+impl<M, F, const INVERSE: bool> fmt::Debug for Caller<'_, M, F, INVERSE> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Caller").field("undone", &UNDONE).finish()
+        f.debug_struct("Caller").field("inverse", &INVERSE).finish()
     }
 }
 
-impl<M: Machine, F: Frame, const UNDONE: bool> Host for Caller<'_, M, F, UNDONE> {
+impl<M: Machine, F: CallFrame, const INVERSE: bool> Host for Caller<'_, M, F, INVERSE> {
     type Register = M::Register;
     type Machine = M;
-    const UNDONE: bool = UNDONE;
+    const UNDONE: bool = F::UNDONE != INVERSE;
     const RUNNING: Option<&'static Running> = Some(F::RUNNING);
 
     #[inline(always)]
@@ -200,6 +269,14 @@ macro_rules! reversible {
             fn run(self, host: &mut H, ($($register,)*): ($($register,)*)) {
                 self(host, $($register),*);
             }
+        }
+
+        impl<T, $($register: BorrowedRegister<T>),*> Registers<T> for ($($register,)*) {
+            type Formats = ($($register::Format,)*);
+        }
+
+        impl<T, $($register: Formats<T>),*> Formats<T> for ($($register,)*) {
+            type Registers = ($($register::Registers,)*);
         }
     };
 }

@@ -116,10 +116,10 @@
 //! #     m.square(&Declaration::work("square", Type::UInt, 6), Word::unsigned(&x, 0, 3), 0);
 //! #     m.finish()
 //! # }
-//! use qrt_circuit::export::{Format, write_program};
+//! use qrt_circuit::export::{ExportFormat, write_program};
 //!
 //! let mut text = Vec::new();
-//! let written = write_program(&squarer(), &[], Format::OpenQasm3, &[], &mut text)?;
+//! let written = write_program(&squarer(), &[], ExportFormat::OpenQasm3, &[], &mut text)?;
 //! let text = String::from_utf8(text)?;
 //! assert!(text.starts_with("OPENQASM 3.0;\ninclude \"stdgates.inc\";\nqubit[3] r_x;\n"));
 //! assert_eq!(written.by_name["ccx"], text.matches("ccx ").count() as u64);
@@ -170,6 +170,7 @@ pub mod export;
 pub mod format;
 mod gate;
 mod host;
+mod listing;
 pub mod lower;
 mod machine;
 mod multiples;
@@ -183,8 +184,11 @@ mod text;
 pub use controlled::{Controlled, controlled, unconditional};
 pub use cores::Cores;
 pub use evaluate::{Contents, Unclean};
-pub use gate::{Circuit, Gate, Gates, Qubit};
-pub use host::{Caller, Frame, Handed, Host, HostOf, Is, Reversible, Running};
+pub use gate::{Gate, GateCircuit, GateSink, Qubit};
+pub use host::{
+    BorrowedRegister, CallFrame, Caller, Formats, Handed, Host, HostOf, Is, Registers, Reversible,
+    Running, Undone,
+};
 pub use machine::{Call, Declaration, Machine};
 pub use multiples::{KnownSums, Multiples};
 pub use op::{Argument, Op, Style, When};

@@ -31,7 +31,7 @@ pub enum Argument<'a, R = RegisterId> {
     /// A number from a register, or a constant.
     Operand(&'a Operand<R>),
     /// The condition of a change in place.
-    Condition,
+    Condition(When<&'a R>),
     /// A constant, whose debug form is Rust code.
     Constant(&'a dyn Debug),
 }
@@ -126,7 +126,10 @@ impl<R> Reads<R> for Option<Bit<R>> {
         }
     }
     fn argument(&self) -> Argument<'_, R> {
-        Argument::Condition
+        Argument::Condition(match self {
+            None => When::Always,
+            Some(bit) => When::If(bit.borrowed()),
+        })
     }
 }
 
@@ -145,7 +148,11 @@ impl<R> Reads<R> for When<R> {
         }
     }
     fn argument(&self) -> Argument<'_, R> {
-        Argument::Condition
+        Argument::Condition(match self {
+            Self::Always => When::Always,
+            Self::If(bit) => When::If(bit.borrowed()),
+            Self::Reversed(bit) => When::Reversed(bit.borrowed()),
+        })
     }
 }
 
@@ -617,7 +624,7 @@ impl Op {
 
 impl<R, T> Op<R, T> {
     /// Returns the same operation with its garbage in this register, if it has any.
-    pub fn with_scratch(mut self, scratch: T) -> Self {
+    pub(crate) fn with_scratch(mut self, scratch: T) -> Self {
         if let Some(field) = self.scratch_mut() {
             *field = scratch;
         }
@@ -625,7 +632,7 @@ impl<R, T> Op<R, T> {
     }
 
     /// Returns the same operation, lowered in this style where there is a choice.
-    pub fn with_style(mut self, style: Style) -> Self {
+    pub(crate) fn with_style(mut self, style: Style) -> Self {
         if let Some(field) = self.style_mut() {
             *field = style;
         }

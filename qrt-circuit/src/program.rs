@@ -1,6 +1,6 @@
 //! Programs: operations in the order in which they run.
 
-use super::{Block, BlockId, Circuit, Op, Operand, Register, RegisterId, lower};
+use super::{Block, BlockId, Op, Operand, Register, RegisterId};
 use std::fmt;
 
 /// A classical parameter: a word that the caller supplies for each run of the program. It is built
@@ -167,10 +167,42 @@ impl Program {
         Ok(bound)
     }
 
-    /// Lowers the program to gates: [`lower::circuit`]. If the gates exceed the memory, see
-    /// [`lower::each_instruction`].
-    pub fn circuit(&self) -> Circuit {
-        lower::circuit(self)
+    /// Iterates over the instructions, in the order in which they run.
+    pub fn iter(&self) -> std::slice::Iter<'_, Instruction> {
+        self.instructions.iter()
+    }
+}
+
+/// Iterates over the instructions.
+///
+/// ```
+/// use qrt_circuit::{Declaration, Machine, Operand, Recorder, Style, Type, When};
+///
+/// let mut recorder = Recorder::new(Style::InPlace);
+/// let mut sum = recorder.input(&Declaration::work("sum", Type::UInt, 2));
+/// recorder.add_into(&mut sum, Operand::Constant(3), false, When::Always);
+/// let program = recorder.finish();
+/// for instruction in &program {
+///     assert_eq!(program.ops[instruction.op as usize].name(), "add_into");
+/// }
+/// assert!(program.inverse().into_iter().all(|instruction| instruction.inverse));
+/// ```
+impl<'a> IntoIterator for &'a Program {
+    type Item = &'a Instruction;
+    type IntoIter = std::slice::Iter<'a, Instruction>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+/// Iterates over the instructions.
+impl IntoIterator for Program {
+    type Item = Instruction;
+    type IntoIter = std::vec::IntoIter<Instruction>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.instructions.into_iter()
     }
 }
 

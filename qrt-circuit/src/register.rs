@@ -195,6 +195,15 @@ pub struct Bit<R = RegisterId> {
 }
 
 impl<R> Bit<R> {
+    /// Returns the same bit with a reference to its register.
+    pub(crate) fn borrowed(&self) -> Bit<&R> {
+        Bit {
+            register: &self.register,
+            index: self.index,
+            inverted: self.inverted,
+        }
+    }
+
     /// Returns the same bit of a renamed register.
     #[inline(always)]
     pub fn map_register<S>(self, rename: impl FnOnce(R) -> S) -> Bit<S> {

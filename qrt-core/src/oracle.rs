@@ -20,34 +20,31 @@
 
 mod bound;
 mod budget;
+mod call_cost;
 pub mod compiled;
-mod costs;
-mod layouts;
 mod nearest;
+mod oracles;
 pub mod paths;
 mod phase;
 mod predicate;
 mod recording;
+mod strategy_costs;
 mod target;
 
 pub use bound::BoundProgram;
-pub use budget::{CallCost, call_cost, check_budget};
-pub use costs::{
-    OracleCost, OracleName, PARTS_OF_A_CALL, most_expensive_oracle, oracle_costs,
-    oracle_costs_knowing, oracle_costs_of_class, oracle_costs_under, oracle_names,
-};
-pub use layouts::{Layout, Layouts};
+pub use budget::check_budget;
+pub use call_cost::{CallCost, call_cost};
 pub use nearest::{MOST_FACES, NearestOracle};
+pub use oracles::{OracleCost, OracleName, Oracles, PARTS_OF_A_CALL};
 pub use phase::MOST_BITS;
 pub use predicate::{Marks, Predicate, PredicateError};
+pub use strategy_costs::{StrategyCost, StrategyCosts};
 
 use crate::compile::{
-    BuildError, Builder, Label, NamedPlace, Passes, PixelWord, Real, StageName, Strategy,
+    BuildError, Builder, Label, NamedPlace, Passes, PixelWord, RealValue, StageName, Strategy,
 };
 use crate::tracer::{Arith, PixelClass, PixelClasses, Stage};
-use qrt_circuit::{
-    Bit, BlockId, Cores, Instruction, Op, Operand, Program, RegisterId, Word, lower,
-};
+use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word, lower};
 use qrt_scene::ComparatorAt;
 use qrt_scene::sampling::{PathPoints, SamplingError};
 use qrt_scene::valid::ValidScene;
@@ -64,7 +61,7 @@ pub const LUMINANCE_CHANNEL: usize = 3;
 pub const PREDICATE_CHANNEL: usize = 4;
 
 /// Weights of red, green and blue in the luminance, of the primaries of sRGB (ITU-R BT.709).
-pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+pub(crate) const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// The luminance of a linear colour.
 pub fn luminance(colour: &[f64; 3]) -> f64 {
@@ -74,7 +71,7 @@ pub fn luminance(colour: &[f64; 3]) -> f64 {
 
 /// Options of compilation, which may differ from the scene's.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct OracleOptions {
     /// The uncomputation strategy; the scene's `circuit.uncompute` unless set.
     pub strategy: Option<Strategy>,
     /// The passes that make the program cheaper.
@@ -82,17 +79,22 @@ pub struct Options {
     /// The class of the pixels that the oracle is for. The default serves all pixels; the oracle of a
     /// class has the class's scale.
     pub class: PixelClass,
+    /// The pixel (column, row) whose oracle is compiled alone: its position is a constant, and costs no
+    /// qubits. Without a pixel, one program serves all pixels of the class, and a pixel's position is a
+    /// parameter in registers.
+    pub pixel: Option<[u32; 2]>,
 }
 
-impl Options {
+impl OracleOptions {
     /// The uncomputation strategy of circuits of `scene`.
     ///
     /// # Errors
     /// As [`Oracle::new`]: `uncompute: auto` tries several.
     pub fn strategy(&self, scene: &ValidScene) -> Result<Strategy, OracleError> {
-        match self.strategy {
-            Some(strategy) => Ok(strategy),
-            None => layouts::strategy_of(scene),
+        match (self.strategy, self.pixel) {
+            (Some(strategy), _) => Ok(strategy),
+            (None, None) => Oracles::new(scene).strategy(),
+            (None, Some(pixel)) => Oracles::new(scene).of_pixel(pixel).strategy(),
         }
     }
 
@@ -103,14 +105,24 @@ impl Options {
             ..Self::default()
         }
     }
+
+    /// The defaults, for the pixel (column, row) alone.
+    pub fn of_pixel(scene: &ValidScene, pixel: [u32; 2]) -> Self {
+        Self {
+            class: PixelClasses::new(scene).class(pixel),
+            pixel: Some(pixel),
+            ..Self::default()
+        }
+    }
 }
 
-impl Default for Options {
+impl Default for OracleOptions {
     fn default() -> Self {
         Self {
             strategy: None,
             passes: Passes::ALL,
             class: PixelClass::default(),
+            pixel: None,
         }
     }
 }
@@ -127,6 +139,20 @@ pub enum OracleError {
     TooManyFaces {
         /// Number of faces of the scene.
         faces: usize,
+    },
+    /// A table of faces has no spheres.
+    SphereInTable {
+        /// The number of the sphere in the scene's list of primitives.
+        primitive: usize,
+    },
+    /// A sphere's radius has too few bits.
+    SmallSphere {
+        /// The number of the sphere in the scene's list of primitives.
+        primitive: usize,
+        /// Number of fraction bits of the circuit's numbers.
+        fraction: u32,
+        /// Least number of fraction bits that the sphere needs.
+        needed: u32,
     },
 }
 
@@ -187,6 +213,8 @@ pub struct Oracle {
     pub points: PathPoints,
     /// Columns and rows of the film.
     pub film: [u32; 2],
+    /// The only pixel (column, row) that the oracle is for; none if it is for all pixels of a class.
+    pub pixel: Option<[u32; 2]>,
     /// The named values that are in registers after compute, by name and ray.
     pub places: Vec<NamedPlace>,
     /// Number of operations that the tracer requested, and number of these that reused an earlier one.
@@ -198,7 +226,11 @@ impl Oracle {
     ///
     /// # Errors
     /// The scene has numbers that no register can hold.
-    pub fn new(scene: &ValidScene, channel: usize, options: Options) -> Result<Self, OracleError> {
+    pub fn new(
+        scene: &ValidScene,
+        channel: usize,
+        options: OracleOptions,
+    ) -> Result<Self, OracleError> {
         Self::compile(scene, [channel], options)
     }
 
@@ -207,7 +239,7 @@ impl Oracle {
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn rgb(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+    pub fn rgb(scene: &ValidScene, options: OracleOptions) -> Result<Self, OracleError> {
         Self::compile(scene, [0, 1, 2], options)
     }
 
@@ -218,7 +250,7 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`], and if there are more than [`MOST_FACES`] faces.
     pub fn given_primary_hit(scene: &ValidScene, class: PixelClass) -> Result<Self, OracleError> {
-        let options = Options::of_class(class);
+        let options = OracleOptions::of_class(class);
         let recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Given)?;
         Ok(recording.oracle(&[0, 1, 2]))
     }
@@ -230,52 +262,17 @@ impl Oracle {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn all(scene: &ValidScene) -> Result<([Self; 3], Self), OracleError> {
-        let (channels, rgb, _) = Self::all_recorded(scene, Cores::One)?;
-        Ok((channels, rgb))
-    }
-
-    /// The oracle of all three channels together, and the cost of a call of each channel's oracle. All
-    /// are for pixels of the class that any pixel may be of. They are those of [`Oracle::all`], but
-    /// computed sooner, on all cores. If the scene has pixels of that class, the costs are those of the
-    /// class in [`oracle_costs`].
-    ///
-    /// # Errors
-    /// As [`Oracle::new`].
-    pub fn rgb_and_costs(scene: &ValidScene) -> Result<(Self, [OracleCost; 3]), OracleError> {
-        let (channels, rgb, recording) = Self::all_recorded(scene, Cores::All)?;
-        let class = PixelClass::default();
-        let of_all_pixels = PixelClasses::new(scene).present() == [class];
-        let known = &mut recording.known();
-        let costs = [0, 1, 2].map(|channel| {
-            let name = OracleName {
-                channel,
-                class,
-                of_all_pixels,
-            };
-            OracleCost::new(name, &channels[channel], known)
-        });
-        Ok((rgb, costs))
-    }
-
-    fn all_recorded(
-        scene: &ValidScene,
-        cores: Cores,
-    ) -> Result<([Self; 3], Self, Recording), OracleError> {
-        let options = Options::default();
+        let options = OracleOptions::default();
         let recording = Recording::new(scene, [0, 1, 2], options, PrimaryHit::Traced)?;
-        recording.known().cores = cores;
-        let wanted: [&[usize]; 4] = [&[0], &[1], &[2], &[0, 1, 2]];
-        let oracles = cores.map(&wanted, 1, |places| recording.oracle(places));
-        let [r, g, b, rgb] = <[Self; 4]>::try_from(oracles)
-            .unwrap_or_else(|_| unreachable!("one for each that is wanted"));
-        Ok(([r, g, b], rgb, recording))
+        let channels = [0, 1, 2].map(|channel| recording.oracle(&[channel]));
+        Ok((channels, recording.oracle(&[0, 1, 2])))
     }
 
     /// The oracle of the luminance alone: see [`luminance`].
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn luminance(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+    pub fn luminance(scene: &ValidScene, options: OracleOptions) -> Result<Self, OracleError> {
         Ok(Recording::with_luminance(scene, options)?.oracle(&[3]))
     }
 
@@ -284,21 +281,32 @@ impl Oracle {
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn rgb_and_luminance(scene: &ValidScene, options: Options) -> Result<Self, OracleError> {
+    pub fn rgb_and_luminance(
+        scene: &ValidScene,
+        options: OracleOptions,
+    ) -> Result<Self, OracleError> {
         Ok(Recording::with_luminance(scene, options)?.oracle(&[0, 1, 2, 3]))
     }
 
     fn compile<const C: usize>(
         scene: &ValidScene,
         channels: [usize; C],
-        options: Options,
+        options: OracleOptions,
     ) -> Result<Self, OracleError> {
         let recording = Recording::new(scene, channels, options, PrimaryHit::Traced)?;
         Ok(recording.oracle(&std::array::from_fn::<_, C, _>(|place| place)))
     }
 
     /// The parameters of pixel (column, row).
+    ///
+    /// # Panics
+    /// If the oracle is for another pixel alone.
     pub fn parameter_words(&self, seed: u64, pixel: [u32; 2]) -> Vec<u64> {
+        assert!(
+            self.pixel.is_none_or(|own| own == pixel),
+            "an oracle of pixel {:?} alone cannot serve pixel {pixel:?}",
+            self.pixel.unwrap_or_default()
+        );
         let words = self.parameters.iter();
         words
             .map(|word| word.value(&self.points, seed, pixel))
@@ -409,7 +417,9 @@ struct FlipSteps {
 
 /// One more than the greatest label of a face that a ray can meet.
 fn faces<const C: usize>(stage: &Stage<C>) -> u32 {
-    let labels = stage.geometry().faces.iter().map(|face| face.label);
+    let geometry = stage.geometry();
+    let labels = geometry.faces.iter().map(|face| face.label);
+    let labels = labels.chain(geometry.balls.iter().map(|ball| ball.label));
     labels.max().map_or(0, |label| label + 1)
 }
 
@@ -422,7 +432,7 @@ fn register_of(operand: Operand) -> Option<RegisterId> {
 
 impl Builder<'_> {
     /// The register of a colour, and the number of the `2^bits` thresholds that the colour exceeds.
-    fn counted(&mut self, colour: Real, bits: u32, at: ComparatorAt) -> (Operand, Operand) {
+    fn counted(&mut self, colour: RealValue, bits: u32, at: ComparatorAt) -> (Operand, Operand) {
         self.enter_count();
         let fraction = self.fraction_bits();
         let (operand, _) = self.operand_of(colour);

@@ -12,7 +12,7 @@
 //!
 //! For y = 0 and y = T/2 the two terms coincide, and P(y) is one of them. The sum over all y is 1.
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use super::double::{self, Double};
 use super::draw::Sampler;
@@ -55,7 +55,7 @@ fn roots(register: &Register, phase: Phase, y: u64) -> (f64, f64) {
 /// Outcomes are folded onto `y = 0 ..= T/2`.
 ///
 /// ```
-/// use qrt_scene::Window;
+/// use qrt_circuit::quantum::Window;
 /// use qrt_counting::PhaseDistribution;
 /// // Half of the indices are good: theta = 1/4 is on the grid, and is always read.
 /// let distribution = PhaseDistribution::new(8, 16, 3, Window::Rect)?;

@@ -15,7 +15,7 @@
 
 use std::f64::consts::PI;
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use super::kernel::Register;
 use super::phase::Phase;

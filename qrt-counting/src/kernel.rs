@@ -26,7 +26,7 @@
 
 use std::f64::consts::PI;
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 /// A phase register: its size and the window it is prepared in.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,7 +30,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use super::distribution::{check_counts, ln_probability, register};
 use super::double::{self, Double};
@@ -66,7 +66,7 @@ pub struct MaximumLikelihood {
 /// number of good indices could have given.
 ///
 /// ```
-/// use qrt_scene::Window;
+/// use qrt_circuit::quantum::Window;
 /// use qrt_counting::maximum_likelihood;
 /// // T = 8: outcome 2 is theta = 1/4, half of the indices.
 /// assert_eq!(maximum_likelihood(&[2, 2, 2], 1000, 3, Window::Rect)?.good, 500);
@@ -122,7 +122,7 @@ const MAX_POSTERIOR_IDS: u64 = 1 << 24;
 /// As [`maximum_likelihood`], and more than 2^24 indices.
 ///
 /// ```
-/// use qrt_scene::Window;
+/// use qrt_circuit::quantum::Window;
 /// use qrt_counting::posterior;
 /// // T = 4, read as 1: half of the four indices, or, less likely, one or three of them.
 /// let posterior = posterior(&[1], 4, 2, Window::Rect)?;

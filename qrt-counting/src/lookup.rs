@@ -17,7 +17,7 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::{Mutex, PoisonError};
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use super::distribution::{check_counts, ln_probability, register};
 use super::error::CountingError;

@@ -10,7 +10,7 @@
 //!
 //! for any operation on the phase register. The sum of cosines has a closed form.
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 use std::f64::consts::{PI, TAU};
 
 /// The probability that the index measured after phase estimation is good.

@@ -14,7 +14,7 @@
 //! All values are logarithms relative to the likeliest S. Cells that have less than exp(-60) of the
 //! likeliest are left out.
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
@@ -71,7 +71,7 @@ struct Piece {
 /// As [`maximum_likelihood`](super::maximum_likelihood).
 ///
 /// ```
-/// use qrt_scene::Window;
+/// use qrt_circuit::quantum::Window;
 /// use qrt_counting::posterior_mean;
 /// // T = 8, read as 2 in both runs: theta is about 1/4, and the posterior is symmetric about 1/2.
 /// let found = posterior_mean(&[2, 2], 1 << 40, 3, Window::Rect, 0.95)?;
@@ -132,6 +132,18 @@ struct Integral<'a> {
     /// B, the number of outcomes.
     shots: f64,
     pieces: Vec<Piece>,
+}
+
+/// The parts of the likelihood of one outcome around a place.
+struct Term {
+    /// Number of shots with this outcome.
+    count: f64,
+    /// The squared envelopes of the outcome and of its mirror image.
+    near: f64,
+    far: f64,
+    /// The distances of the place from both, in units of the register's size.
+    below: f64,
+    above: f64,
 }
 
 impl Integral<'_> {
@@ -372,7 +384,7 @@ impl Integral<'_> {
     fn average(&self, place: f64) -> f64 {
         let register = &self.likelihood.register;
         let size = register.size() as f64;
-        let terms: Vec<(f64, f64, f64, f64, f64)> = (self.likelihood.outcomes.iter())
+        let terms: Vec<Term> = (self.likelihood.outcomes.iter())
             .map(|&(outcome, count)| {
                 let y = outcome as f64;
                 let sum = place + y;
@@ -382,13 +394,13 @@ impl Integral<'_> {
                 } else {
                     register.envelope(sum.min(size - sum))
                 };
-                (
+                Term {
                     count,
-                    near * near,
-                    far * far,
-                    (place - y) / size,
-                    sum / size,
-                )
+                    near: near * near,
+                    far: far * far,
+                    below: (place - y) / size,
+                    above: sum / size,
+                }
             })
             .collect();
         let wave = |place: f64, shift: f64| {
@@ -407,8 +419,9 @@ impl Integral<'_> {
         for point in 0..points as u64 {
             let place = (point as f64 + 0.5) / points;
             let ln: f64 = (terms.iter())
-                .map(|&(count, near, far, below, above)| {
-                    count * libm::log(near * wave(place, below) + far * wave(place, above))
+                .map(|term| {
+                    let near = term.near * wave(place, term.below);
+                    term.count * libm::log(near + term.far * wave(place, term.above))
                 })
                 .sum();
             sum += libm::exp(ln - self.top);

@@ -2,8 +2,8 @@
 //!
 //! Each machine executes what [`qrt_circuit`] defines, and shares no code with the others:
 //!
-//! * [`Fixed`] evaluates a program operation by operation on lanes of integers;
-//! * [`Gates`] executes a circuit gate by gate on lanes of bits, one row a qubit;
+//! * [`FixedMachine`] evaluates a program operation by operation on lanes of integers;
+//! * [`GatesMachine`] executes a circuit gate by gate on lanes of bits, one row a qubit;
 //! * [`State`] runs code over [`qrt_circuit::Machine`] on one basis state, by the operations'
 //!   definition, and checks what is undone;
 //! * [`statevector`] follows amplitudes, for circuits with Hadamards and rotations.
@@ -35,8 +35,8 @@ mod state;
 pub mod statevector;
 mod transpose;
 
-pub use fixed::{Extremes, Fixed, Lanes, contents};
-pub use gates::{Dirty, Gates, InvalidGate, Queue, Rows, Template};
+pub use fixed::{Extremes, FixedLanes, FixedMachine, contents_by_definition};
+pub use gates::{Dirty, GatesMachine, InvalidGate, Queue, Rows, Template};
 pub use instructions::{InstructionSet, InstructionsError};
-pub use span::Span;
-pub use state::{State, Unclean};
+pub use span::PixelLanes;
+pub use state::{State, UncleanRegister};

@@ -21,7 +21,7 @@
 //! # Ok::<(), run::RunError>(())
 //! ```
 
-use crate::{Fixed, Gates, InvalidGate};
+use crate::{FixedMachine, GatesMachine, InvalidGate};
 use qrt_circuit::{Contents, Op, Operand, Program, Qubit, RegisterId, Word, lower};
 
 /// Reason for which a program did not run as a routine.
@@ -130,9 +130,9 @@ pub fn on_fixed(
     let read = |id: RegisterId| Word::unsigned(id, 0, program.width(id));
     let own = own(program);
     let held = program.inputs.iter().chain(&own).map(|id| read(*id));
-    let machine = Fixed::new(program, &held.collect::<Vec<_>>());
+    let machine = FixedMachine::new(program, &held.collect::<Vec<_>>());
     let mut lanes = machine.lanes();
-    on_blocks(program, states, Fixed::LANES, |columns, count| {
+    on_blocks(program, states, FixedMachine::LANES, |columns, count| {
         let inputs: Vec<&[u64]> = columns.iter().map(Vec::as_slice).collect();
         let mut outputs = vec![vec![0_i64; count]; program.inputs.len() + own.len()];
         let mut slices: Vec<&mut [i64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
@@ -159,7 +159,7 @@ pub fn on_gates(
 ) -> Result<Vec<Vec<u64>>, RunError> {
     check(program, states)?;
     let circuit = lower::circuit(program);
-    let machine = Gates::new(&[&circuit]).map_err(RunError::Gate)?;
+    let machine = GatesMachine::new(&[&circuit]).map_err(RunError::Gate)?;
     let qubits = |id: &RegisterId| -> &[Qubit] {
         let mut held = circuit.inputs.iter();
         held.find(|(held, _)| held == id)

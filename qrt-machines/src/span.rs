@@ -2,7 +2,7 @@
 
 /// Neighbouring lanes of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Span<'a> {
+pub struct PixelLanes<'a> {
     /// Number of lanes that belong to the pixel.
     pub lanes: usize,
     /// The pixel's classical parameters: one value each, in the program's order.

@@ -6,7 +6,7 @@ use qrt_circuit::{
 
 /// A register that was not left clean.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unclean {
+pub enum UncleanRegister {
     /// The register did not hold the expected value when it was undone or freed.
     #[error(
         "`{register}` held {held} when it was undone, and not {expected}: something it was \
@@ -46,7 +46,7 @@ pub enum Unclean {
 pub struct State {
     recorder: Recorder,
     contents: Contents,
-    unclean: Option<Unclean>,
+    unclean: Option<UncleanRegister>,
 }
 
 impl State {
@@ -119,7 +119,7 @@ impl State {
     ///
     /// # Errors
     /// The first register that was undone wrongly, or that still holds something.
-    pub fn clean(&self) -> Result<(), Unclean> {
+    pub fn clean(&self) -> Result<(), UncleanRegister> {
         if let Some(unclean) = &self.unclean {
             return Err(unclean.clone());
         }
@@ -129,7 +129,7 @@ impl State {
         let mut left = registers.enumerate();
         match left.find(|(number, (_, held))| **held != 0 && !is_input(*number)) {
             None => Ok(()),
-            Some((_, (register, &held))) => Err(Unclean::Left {
+            Some((_, (register, &held))) => Err(UncleanRegister::Left {
                 register: register.name.clone(),
                 held,
             }),
@@ -152,7 +152,7 @@ impl State {
             return;
         };
         if let Err(unclean) = self.contents.follow(program, *instruction) {
-            self.unclean.get_or_insert_with(|| Unclean::Undone {
+            self.unclean.get_or_insert_with(|| UncleanRegister::Undone {
                 register: program.registers[unclean.register.index()].name.clone(),
                 held: unclean.held,
                 expected: unclean.expected,
@@ -232,7 +232,7 @@ mod tests {
         state.free(own);
         let unclean = state.clean().unwrap_err();
         assert!(
-            matches!(unclean, Unclean::Undone { held: 5, .. }),
+            matches!(unclean, UncleanRegister::Undone { held: 5, .. }),
             "{unclean}"
         );
     }
@@ -254,7 +254,7 @@ mod tests {
             let mut own = state.zero(&A);
             state.xor_into(&mut own, Operand::unsigned(&a, 0, 4), None);
         });
-        let left = Unclean::Left {
+        let left = UncleanRegister::Left {
             register: "a".to_owned(),
             held: 11,
         };

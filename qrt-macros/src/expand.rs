@@ -1,28 +1,20 @@
 //! Expansions of the macros, as pure functions.
 
 use crate::dependency;
-use crate::scene::Asked;
 use proc_macro2::TokenStream;
 use std::path::PathBuf;
 
 /// Returns the expansion of `qrt!`. Files are relative to the folder of the author's Cargo.toml.
 pub(crate) fn expand(input: TokenStream) -> TokenStream {
-    proceed(Asked::new(input))
-}
-
-/// Continues the expansion of `qrt!`, with another function that its scenes name.
-pub(crate) fn resume(input: TokenStream) -> TokenStream {
-    proceed(Asked::resumed(input))
-}
-
-fn proceed(asked: Asked) -> TokenStream {
     let folder = folder();
-    dependency::named(crate::scene::expand(asked, &folder), &folder)
+    let (path, input) = dependency::given(input);
+    dependency::named(crate::scene::expand(input, &folder), &folder, path)
 }
 
 /// Returns the expansion of `#[reversible]` on an item.
-pub(crate) fn reversible(arguments: &TokenStream, item: TokenStream) -> TokenStream {
-    dependency::named(crate::reversible::expand(arguments, item), &folder())
+pub(crate) fn reversible(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let (path, arguments) = dependency::given(arguments);
+    dependency::named(crate::reversible::expand(&arguments, item), &folder(), path)
 }
 
 /// Returns the folder of the author's Cargo.toml; without cargo, the compiler's own.

@@ -12,6 +12,7 @@ mod expand;
 mod generate;
 mod reversible;
 mod scene;
+mod surroundings;
 #[cfg(test)]
 mod tests;
 
@@ -21,13 +22,6 @@ pub fn qrt(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand::expand(input.into()).into()
 }
 
-/// Continues `qrt!` with the functions that its scenes name; a part of the expansion of `qrt!`.
-#[doc(hidden)]
-#[proc_macro]
-pub fn qrt_with_terms(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    expand::resume(input.into()).into()
-}
-
 /// Makes a function of registers reversible: generates it, its inverse and its program. The facade
 /// `qrt` documents the whole language at this macro, with examples.
 #[proc_macro_attribute]
@@ -35,5 +29,5 @@ pub fn reversible(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    expand::reversible(&arguments.into(), item.into()).into()
+    expand::reversible(arguments.into(), item.into()).into()
 }

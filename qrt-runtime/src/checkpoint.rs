@@ -21,18 +21,22 @@ mod format;
 #[cfg(test)]
 mod tests;
 
-pub use error::{CheckpointError, Difference};
+pub use error::{CheckpointDifference, CheckpointError};
 
 use crate::disk::{self, DiskFile};
 use crate::replace_file::{remove_abandoned, replaced};
+#[cfg(feature = "parts")]
+pub(crate) use format::Ending;
 use format::MAGIC;
-pub(crate) use format::{Ending, Record};
+pub(crate) use format::Record;
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+/// Number of the file format. It changes with every change of the format.
+const VERSION: u32 = 6;
 /// Tiles that were finished within this time may wait, to be made durable together.
 pub(crate) const AT_STAKE: Duration = Duration::from_secs(1);
 /// Least number of bytes of records that are no longer valid for which the file is rewritten.
@@ -81,7 +85,7 @@ pub struct Tile {
 
 /// The sums over the first paths of a part of an unfinished pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct PixelPart {
     /// Column and row on the film.
     pub pixel: [u32; 2],
     /// Number of the part among the parts of the pixel's paths.
@@ -154,7 +158,7 @@ pub struct Checkpoint {
     tiles: Vec<Range<u64>>,
     parts: BTreeMap<Place, Range<u64>>,
     /// The parts that the file held when it was opened.
-    found: Vec<Part>,
+    found: Vec<PixelPart>,
     /// True if an incomplete record may follow the last complete one.
     torn: bool,
     /// Time of the last sync of the whole file.
@@ -235,6 +239,7 @@ impl Checkpoint {
                     parts.insert((part.pixel, part.number), part);
                 }
                 // An ending belongs to a finished part of a picture, and a checkpoint is not one.
+                #[cfg(feature = "parts")]
                 Record::Ending(_) => break,
             }
             checkpoint.end = end;
@@ -286,7 +291,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// If a pixel does not lie in the crop, or if the records can't be written.
-    pub fn append_parts(&mut self, parts: &[Part]) -> Result<(), CheckpointError> {
+    pub(crate) fn append_parts(&mut self, parts: &[PixelPart]) -> Result<(), CheckpointError> {
         let mut records = Vec::new();
         let mut ends = Vec::new();
         for part in parts {
@@ -318,7 +323,7 @@ impl Checkpoint {
 
     /// Takes the parts of unfinished pixels that the file held when it was opened; empty at the
     /// second call.
-    pub fn take_parts(&mut self) -> Vec<Part> {
+    pub fn take_parts(&mut self) -> Vec<PixelPart> {
         std::mem::take(&mut self.found)
     }
 

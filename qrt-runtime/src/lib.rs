@@ -1,28 +1,30 @@
 //! Path machines, rendering, pictures and files.
+
+#![forbid(unsafe_code)]
+
 pub mod checkpoint;
 pub mod disk;
-pub mod draw;
 pub mod image;
-pub mod layouts;
+pub mod line_file;
 pub mod memory;
-pub mod mitsuba;
+pub mod models;
 mod named;
 pub mod path_machines;
-pub mod physical;
 pub mod plan;
-pub mod playground;
 pub mod predicates;
+pub mod prepared;
 pub mod render;
 pub mod replace_file;
 pub mod sample;
 #[cfg(test)]
 mod scratch;
 pub mod search;
-pub mod shell;
-pub mod trade;
-pub mod verify;
+#[cfg(feature = "parts")]
+mod serialized;
 pub mod workers;
+
+pub use prepared::Prepared;
 
 /// Name of this build: a hash of the sources that decide a picture's bits. A build does not
 /// continue the unfinished work of another build, even of the same version.
-pub(crate) const BUILD: &str = env!("QRT_BUILD");
+pub const BUILD: &str = env!("QRT_BUILD");

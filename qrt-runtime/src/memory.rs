@@ -3,7 +3,7 @@
 
 mod allowance;
 
-pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError};
+pub use allowance::{CircuitSize, CircuitWork, Memory, MemoryError, compiling_seconds};
 pub(crate) use allowance::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
 
 /// Returns the peak resident memory since the process began, in bytes. It is Linux's `VmHWM`,
@@ -41,7 +41,7 @@ fn kilobytes(text: &str, name: &str) -> Option<u64> {
 /// Returns the memory that this process may use, in bytes: the least of the machine's memory, the
 /// limit of its control group, and the limit on its address space. `None` on systems that report
 /// these only through foreign calls.
-pub fn allowed_bytes() -> Option<u64> {
+pub(crate) fn allowed_bytes() -> Option<u64> {
     if cfg!(not(target_os = "linux")) {
         return None;
     }

@@ -1,7 +1,9 @@
 //! Enumerations whose values have names: on command lines, in files and in pictures' metadata.
 
 /// Defines an enumeration; [`ALL`](crate::render::Model::ALL) lists its values, and each value has
-/// a name.
+/// a name. A macro of qrt's own crates.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! named {
     (
         $(#[$about:meta])*

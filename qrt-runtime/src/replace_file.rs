@@ -1,9 +1,16 @@
 //! Writing a result so that its name never shows an incomplete file.
+//!
+//! The crate `tempfile` has some of these steps: a new file of random name in the same folder, its
+//! removal on drop, and the rename. It would replace the loop over names in `Partial::beside` alone.
+//! The partial file is locked before anything is written and until it has its final name, so that the
+//! next write recognises and removes the files of killed processes; its name is derived from the final
+//! one and fits into 255 bytes; the file and its folder are synced; and every step is an operation of
+//! [`crate::disk`], where tests make each one fail.
 
 #[cfg(test)]
 mod tests;
 
-use crate::disk::{self, DiskFile, Lock, Place};
+use crate::disk::{self, DiskFile, Lock, ResolvedPath};
 use std::collections::hash_map::RandomState;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, Metadata};
@@ -56,7 +63,7 @@ pub(crate) fn replaced<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<DiskFile>) -> Result<(), E>,
 ) -> Result<DiskFile, E> {
-    let place = Place::resolve(path)?;
+    let place = ResolvedPath::resolve(path)?;
     if place.is_device() {
         return write_through(DiskFile::device(path)?, write);
     }
@@ -73,7 +80,7 @@ pub(crate) fn replaced<E: From<io::Error>>(
 ///
 /// # Errors
 /// Errors of the file system.
-pub fn try_writing(place: &Place) -> io::Result<()> {
+pub fn try_writing(place: &ResolvedPath) -> io::Result<()> {
     if place.is_device() {
         return Ok(());
     }
@@ -98,7 +105,7 @@ struct Partial {
 
 impl Partial {
     /// A new file beside the one at `place`, locked until it is closed.
-    fn beside(place: &Place) -> io::Result<(Self, DiskFile)> {
+    fn beside(place: &ResolvedPath) -> io::Result<(Self, DiskFile)> {
         if place.is_folder() {
             return Err(io::Error::new(ErrorKind::IsADirectory, "is a directory"));
         }

@@ -5,6 +5,7 @@
 
 pub(crate) mod slow_build;
 
+use std::fmt;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -23,6 +24,16 @@ pub struct Workers<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// A callback for progress, called from any thread. Plans do not call it.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+}
+
+impl fmt::Debug for Workers<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Workers")
+            .field("threads", &self.threads)
+            .field("cancel", &self.cancel)
+            .field("progress", &self.progress.map(|_| ".."))
+            .finish()
+    }
 }
 
 /// Progress of the work: in paths of a picture or of a check, or in rows of a table.
@@ -44,16 +55,16 @@ pub enum Progress {
 #[error("the threads cannot be started: {0}")]
 pub struct ThreadsError(#[from] rayon::ThreadPoolBuildError);
 
-/// Bytes of a thread's stack: enough for the native code of the longest circuit that becomes code,
-/// compiled without optimisation. The system allocates memory as the stack is used.
+/// Bytes of a thread's stack. Without optimisation, the inlined code of the machines has large
+/// frames, and the default of 2 MiB overflows. The system allocates memory as the stack is used.
 const STACK: usize = 64 << 20;
 
 impl Workers<'_> {
     /// Runs `work` on threads that are started for it.
-    pub(crate) fn on_threads<T: Send>(
-        &self,
-        work: impl FnOnce() -> T + Send,
-    ) -> Result<T, ThreadsError> {
+    ///
+    /// # Errors
+    /// If the threads can't be started.
+    pub fn on_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, ThreadsError> {
         let threads = self.threads.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -63,12 +74,12 @@ impl Workers<'_> {
     }
 
     /// Returns whether the work must stop.
-    pub(crate) fn cancelled(&self) -> bool {
+    pub fn cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     /// Reports progress to the callback.
-    pub(crate) fn report(&self, progress: Progress) {
+    pub fn report(&self, progress: Progress) {
         if let Some(listener) = self.progress {
             listener(progress);
         }

@@ -57,6 +57,8 @@ pub(crate) fn load(
     });
     bar.clear();
     let loaded = loaded?;
+    #[cfg(test)]
+    super::tests::LOADED.set(Some(loaded.valid.clone()));
     if let Some(warnings) = loaded.warnings() {
         terminal::warn(&warnings);
     }

@@ -2,11 +2,12 @@
 
 use qrt_counting::CountingError;
 use qrt_counting::estimators::EstimatorError;
+use qrt_lab::simulate::SimulateError;
+use qrt_lab::trade::TradeError;
+use qrt_lab::verify::VerifyError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::plan::PlanError;
 use qrt_runtime::render::{MergeError, RenderError};
-use qrt_runtime::trade::TradeError;
-use qrt_runtime::verify::VerifyError;
 use qrt_scene::syntax::Report;
 use std::path::Path;
 use std::process::ExitCode;
@@ -75,6 +76,7 @@ failures! {
     MergeError: |_| false,
     PlanError: PlanError::is_refusal,
     RenderError: RenderError::is_refusal,
+    SimulateError: SimulateError::is_refusal,
     TradeError: TradeError::is_refusal,
     VerifyError: VerifyError::is_refusal,
     ImageError: |error| matches!(

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::terminal;
-use qrt_runtime::disk::Place;
+use qrt_runtime::disk::ResolvedPath;
 use qrt_runtime::replace_file::{PARTIAL, try_writing};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub(crate) const STDOUT: &str = "-";
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
     asked: PathBuf,
-    place: Place,
+    place: ResolvedPath,
 }
 
 impl Output {
@@ -24,7 +24,7 @@ impl Output {
     /// `asked` is a folder, its folder does not exist, or it is `-`.
     pub(crate) fn new(asked: &Path) -> Result<Self, Failure> {
         keep_off_stdout(asked)?;
-        let place = Place::resolve(asked).map_err(|error| Failure::file(asked, &error))?;
+        let place = ResolvedPath::resolve(asked).map_err(|error| Failure::file(asked, &error))?;
         if place.is_folder() {
             let message = format!("`{}` is a folder", asked.display());
             return Err(Failure::Usage(message));
@@ -43,7 +43,7 @@ impl Output {
         }
         Ok(Self {
             asked: asked.to_path_buf(),
-            place: Place::standard_output(),
+            place: ResolvedPath::standard_output(),
         })
     }
 
@@ -137,7 +137,7 @@ pub(crate) fn keep_apart<'a>(
     };
     for input in inputs {
         // A missing input is reported when it is read.
-        if let Ok(place) = Place::resolve(input)
+        if let Ok(place) = ResolvedPath::resolve(input)
             && let Some(output) = outputs
                 .iter()
                 .find(|output| output.place.is_same_as(&place))

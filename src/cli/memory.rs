@@ -1,10 +1,7 @@
-//! Preflight checks of memory: work that would exceed the memory budget is refused before it begins, with
-//! its estimate and the parameters to lower. Slow compilation of a circuit is announced.
+//! Sizes of memory on the command line, and refusals of work that would take more.
 
 use super::failure::Failure;
-use super::time;
-use qrt_runtime::memory::{CircuitSize, CircuitWork, Memory, MemoryError};
-use qrt_scene::valid::ValidScene;
+use qrt_runtime::memory::MemoryError;
 
 /// Parses a size, for example `500M`, `1.5G` or `4GiB`: units are powers of 1,024.
 pub(crate) fn size(text: &str) -> Result<u64, String> {
@@ -29,40 +26,6 @@ pub(crate) fn size(text: &str) -> Result<u64, String> {
 /// Returns the refusal, with the flag that allows more memory.
 pub(crate) fn refused(error: &MemoryError) -> Failure {
     Failure::Usage(format!("{error}, or allow more with --max-memory"))
-}
-
-/// Checks that the circuits that the planner compiles for an accuracy fit, if the scene has an `accuracy`.
-///
-/// # Errors
-/// The circuits do not fit.
-pub(crate) fn keep_plan(memory: Memory, scene: &ValidScene) -> Result<(), Failure> {
-    let size = memory.keep_plan(scene).map_err(|error| refused(&error))?;
-    tell(size, scene);
-    Ok(())
-}
-
-/// Checks that the oracle's circuit, which grows with the scene's faces, fits.
-///
-/// # Errors
-/// The circuit does not fit.
-pub(crate) fn keep_circuit(
-    memory: Memory,
-    scene: &ValidScene,
-    work: CircuitWork,
-) -> Result<(), Failure> {
-    let size = memory.keep_circuit(scene, work);
-    tell(size.map_err(|error| refused(&error))?, scene);
-    Ok(())
-}
-
-/// Prints the estimated time of compilation if it is long.
-fn tell(size: Option<CircuitSize>, scene: &ValidScene) {
-    if let Some(size) = size {
-        let faces = scene.polygons().len();
-        let what =
-            format!("compiling the circuit of a scene of {faces} faces and counting its gates");
-        time::tell(&what, size.seconds, "a coarser mesh takes less");
-    }
 }
 
 #[cfg(test)]

@@ -15,17 +15,17 @@ use std::path::PathBuf;
 
 /// Put the parts of a picture together
 ///
-/// The parts are what `qrt render --tile K/N` has written for every K from 0 to N - 1, in any order.
-/// The picture, and the files beside it, are those of one render of the whole, byte for byte; only the
-/// times of --stats are those of all parts together.
+/// The parts are what `qrt render --portion K/N` has written for every K from 0 to N - 1, in any
+/// order. The picture, and the files beside it, are those of one render of the whole, byte for
+/// byte; only the times of --stats are those of all parts together.
 ///
 /// A part that is missing, there twice, damaged or of another picture is named, and nothing is written;
 /// the exit code is then 1.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
-  qrt render box.yaml --tile 0/2 -o box.0               one part of two
-  qrt render box.yaml --tile 1/2 -o box.1               the other, perhaps on another machine
+  qrt render box.yaml --portion 0/2 -o box.0            one part of two
+  qrt render box.yaml --portion 1/2 -o box.1            the other, perhaps on another machine
   qrt merge box.0 box.1 -o box.png --stats box.json     the picture
   qrt merge box.0 box.1 -o box.exr --layers box.yaml    with depths, normals, materials and more")]
 pub(crate) struct MergeArgs {

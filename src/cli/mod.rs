@@ -17,13 +17,16 @@ mod merge;
 mod new;
 mod path;
 mod picture;
-mod plan;
 mod playground;
+mod prepare;
 mod progress;
 mod render;
 mod schema;
+mod simulate;
 mod stats;
 mod terminal;
+#[cfg(test)]
+mod tests;
 mod time;
 mod trade;
 mod verify;
@@ -52,6 +55,7 @@ Examples:
   qrt inspect box.yaml      what its circuit costs, and where
   qrt trade box.yaml -o out what its accuracy costs, parameter by parameter
   qrt export box.yaml       its circuit as OpenQASM, box.qasm
+  qrt new edge --small      a scene whose whole circuit `qrt simulate` runs as amplitudes
 
 QRT_INSTRUCTIONS=avx512, avx2, neon or portable, in the environment, names the instructions of the
 processor that are used; it changes nothing but the speed.
@@ -72,6 +76,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Trade(trade::TradeArgs),
     Export(export::ExportArgs),
+    Simulate(simulate::SimulateArgs),
     Diff(diff::DiffArgs),
     New(new::NewArgs),
     Playground(playground::PlaygroundArgs),
@@ -107,6 +112,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Verify(args) => verify::run(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Export(args) => export::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::New(args) => new::run(&args),
         Command::Playground(args) => playground::run(&args),

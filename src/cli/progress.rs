@@ -28,6 +28,11 @@ impl Bar {
         Self::new(wanted, "{human_pos} of {human_len} gates")
     }
 
+    /// Returns a bar that counts pixels.
+    pub(crate) fn pixels(wanted: bool) -> Self {
+        Self::new(wanted, "{pos} of {len} pixels")
+    }
+
     /// Returns a bar for work without a count.
     pub(crate) fn setting_up() -> Self {
         let bar = Self::new(true, "");

@@ -4,24 +4,24 @@ use super::args::{SceneArgs, ThreadsArgs, choice, numbers};
 use super::failure::Failure;
 use super::files::{Output, named_after};
 use super::picture::{self, BesideArgs, Outputs};
+use super::prepare::{self, Preparation};
 use super::progress::Bar;
 use super::watch::watch;
-use super::{interrupt, memory, path, plan, terminal, time};
+use super::{interrupt, memory, path, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use qrt_counting::estimators::{Noise, NoiseError};
+use qrt_runtime::Prepared;
 use qrt_runtime::checkpoint::Checkpoint;
 use qrt_runtime::image::{Encoding, Metadata};
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, Options, PicturePart, Portion, RenderError, Visibility,
-    render_keeping, render_part,
+    Colour, DEFAULT_FAILURE, Model, PicturePart, Portion, RenderError, RenderOptions, Visibility,
 };
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
 use qrt_scene::Estimator;
 use qrt_scene::front::Loaded;
-use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -88,7 +88,7 @@ Examples:
   qrt render box.yaml --set 'film={ width: 8, height: 8 }' --counts box.csv
   qrt render box.yaml --crop 10,20,4,4 --stats box.json
   qrt render box.yaml --watch --estimator exact         again whenever box.yaml is saved
-  qrt render box.yaml --tile 0/4 -o box.0               the first of four parts for `qrt merge`
+  qrt render box.yaml --portion 0/4 -o box.0            the first of four parts for `qrt merge`
   qrt render box.yaml --model fixed --visibility grover primary hits by quantum search")]
 #[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct RenderArgs {
@@ -139,11 +139,11 @@ pub(crate) struct RenderArgs {
         requires = "output",
         conflicts_with_all = ["exposure", "stats", "counts"]
     )]
-    tile: Option<Portion>,
+    portion: Option<Portion>,
     /// Keep more of each pixel in an .exr: interval.R .G .B (widths of intervals, in radiance), queries.Y,
     /// and of what the ray through its middle meets, depth.Z, normal.X .Y .Z and material.ID (the number
     /// of the material, from 1)
-    #[arg(long, conflicts_with = "tile")]
+    #[arg(long, conflicts_with = "portion")]
     layers: bool,
     #[command(flatten)]
     beside: BesideArgs,
@@ -153,7 +153,7 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     resume: bool,
     /// Render again whenever the scene or a file that it names is saved, until Ctrl-C
-    #[arg(long, conflicts_with_all = ["resume", "tile"])]
+    #[arg(long, conflicts_with_all = ["resume", "portion"])]
     watch: bool,
     /// Neither progress nor summary
     #[arg(short, long)]
@@ -199,7 +199,7 @@ enum Target {
 
 impl Target {
     fn from_args(args: &RenderArgs, output: &Path) -> Result<Self, Failure> {
-        let Some(portion) = args.tile else {
+        let Some(portion) = args.portion else {
             let encoding = Encoding::for_path(output, args.beside.exposure)?;
             picture::keeps_layers(args.layers, output, encoding)?;
             return Ok(Self::Picture(encoding));
@@ -258,10 +258,10 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     Metadata::new().set("scene", scene.scene().name.as_str())?;
     let bar = Bar::paths(!args.quiet);
     let show = |progress| bar.show(progress);
-    let mut options = Options {
+    let options = RenderOptions {
         seed: args.seed,
         crop: args.crop,
-        model: args.model,
+        model: Some(args.model),
         estimator: args.estimator.as_deref().and_then(Estimator::from_name),
         colour: args.colour,
         noise: args.noise.unwrap_or_default(),
@@ -274,38 +274,17 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         memory: args.scene.memory(),
         checkpoint: outputs.checkpoint.clone(),
         resume: args.resume,
-        ..Options::default()
+        ..RenderOptions::default()
     };
-    // These checks come before all slow work and before messages about its time.
-    let film = scene.scene().film;
-    let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
-    let size = [width.min(film.width), height.min(film.height)];
-    let fits = options.memory.keep_picture(size);
-    fits.map_err(|error| memory::refused(&error))?;
-    memory::keep_plan(options.memory, scene)?;
-    let planned = plan::choose(scene, &options.planning(), args.quiet)?;
-    options.plan = planned.as_ref();
-    let traced = planned.as_ref().map_or(scene, |plan| &plan.scene);
-    if let Some(work) = options.circuit_work() {
-        memory::keep_circuit(options.memory, traced, work)?;
-    }
-    if let Some(path) = (outputs.checkpoint.as_ref()).filter(|path| path.exists() && !args.resume) {
-        terminal::note(&format!(
-            "`{}` of an interrupted render is replaced; `--resume` would go on from it",
-            path.display()
-        ));
-    }
-    tell_of_grey(options.expected_grey(traced)?, &options, traced);
-    if !args.quiet {
-        tell_of_time(traced, args, target.portions());
-    }
+    let prepared = prepared(&loaded, &options, args.quiet)?;
+    announce(&prepared, args, target, &options)?;
     bar.set_up();
     let (made, checkpoint) = match target {
         Target::Picture(encoding) => {
-            let rendered = render_keeping(scene, &options);
+            let rendered = prepared.render(&options);
             bar.clear();
             let (rendered, checkpoint) =
-                rendered.map_err(|error| failure(error, &loaded, &options))?;
+                rendered.map_err(|error| failure(error, &loaded, &prepared, &options))?;
             let layers = if args.layers {
                 rendered.layers(scene)
             } else {
@@ -318,9 +297,10 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             (clipped.map(told), checkpoint)
         }
         Target::Part(portion) => {
-            let rendered = render_part(scene, portion, &options);
+            let rendered = prepared.render_part(portion, &options);
             bar.clear();
-            let (part, checkpoint) = rendered.map_err(|error| failure(error, &loaded, &options))?;
+            let (part, checkpoint) =
+                rendered.map_err(|error| failure(error, &loaded, &prepared, &options))?;
             let written = write_part(&outputs.picture, &part);
             (written.map(|()| part_summary(&output, &part)), checkpoint)
         }
@@ -337,6 +317,58 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         return Ok(());
     }
     outputs.tell(&told)
+}
+
+/// Prepares the scene: refuses a picture that does not fit, chooses the parameters, and compiles and
+/// checks the circuit that the picture needs.
+fn prepared<'s>(
+    loaded: &'s Loaded,
+    options: &RenderOptions<'_>,
+    quiet: bool,
+) -> Result<Prepared<'s>, Failure> {
+    options.check(&loaded.valid).map_err(|error| match error {
+        RenderError::WouldNotFit(error) => memory::refused(&error),
+        error => error.into(),
+    })?;
+    let preparation = Preparation {
+        memory: options.memory,
+        planning: options.planning(),
+        shows_plan: !quiet,
+    };
+    let mut prepared = preparation.prepare(loaded)?;
+    if options.colour == Colour::OneRun {
+        prepared = prepared.with_luminance();
+    }
+    match options.circuit_work() {
+        Some(work) if options.visibility == Visibility::Classical => {
+            prepare::compile(&prepared, loaded, ([0, 0], work))?;
+        }
+        _ => {}
+    }
+    let checked = prepared.check_render(options);
+    checked.map_err(|error| prepare::refused(error, loaded))?;
+    Ok(prepared)
+}
+
+/// Prints, before the work, what the user may not expect of it.
+fn announce(
+    prepared: &Prepared<'_>,
+    args: &RenderArgs,
+    target: Target,
+    options: &RenderOptions<'_>,
+) -> Result<(), Failure> {
+    let there = options.checkpoint.as_ref().filter(|path| path.exists());
+    if let Some(path) = there.filter(|_| !args.resume) {
+        terminal::note(&format!(
+            "`{}` of an interrupted render is replaced; `--resume` would go on from it",
+            path.display()
+        ));
+    }
+    note_grey(options.expected_grey(prepared.scene())?, options, prepared);
+    if !args.quiet {
+        note_time(prepared, args, target.portions());
+    }
+    Ok(())
 }
 
 fn write_part(output: &Output, part: &PicturePart) -> Result<(), Failure> {
@@ -370,15 +402,15 @@ fn kept(error: Failure, checkpoint: Option<Checkpoint>, outputs: &Outputs) -> Fa
 }
 
 /// Warns if the fraction of pixels expected to be grey is large enough to be seen.
-fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
+fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>) {
     const SHOWN: f64 = 1e-3;
     const ENOUGH: u32 = 10;
     if fraction <= SHOWN {
         return;
     }
-    let counting = traced.scene().counting;
+    let counting = prepared.scene().scene().counting;
     // The planner chooses the repetitions itself.
-    let enough = if options.plan.is_some() {
+    let enough = if prepared.plan().is_some() {
         String::new()
     } else {
         format!("`--set counting.repetitions={ENOUGH}` or more, or ")
@@ -395,24 +427,35 @@ fn tell_of_grey(fraction: f64, options: &Options<'_>, traced: &ValidScene) {
 }
 
 /// Warns if the estimated time is long; the user may still have meant it.
-fn tell_of_time(scene: &ValidScene, args: &RenderArgs, portions: u32) {
-    let film = scene.scene().film;
+fn note_time(prepared: &Prepared<'_>, args: &RenderArgs, portions: u32) {
+    let film = prepared.scene().scene().film;
     let [_, _, width, height] = args.crop.unwrap_or([0, 0, film.width, film.height]);
     let pixels = f64::from(width) * f64::from(height) / f64::from(portions);
-    time::tell_of_paths(scene, pixels, 1.0, &[args.model], args.threads.or_cores());
+    time::tell_of_paths(
+        prepared,
+        pixels,
+        1.0,
+        &[args.model],
+        args.threads.or_cores(),
+    );
 }
 
 /// Returns the reason that there is no picture: at its place in the scene, or with the user's remedy.
-fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failure {
+fn failure(
+    error: RenderError,
+    loaded: &Loaded,
+    prepared: &Prepared<'_>,
+    options: &RenderOptions<'_>,
+) -> Failure {
     match error {
         RenderError::OutOfBounds { pixel, id, .. } => {
-            let path = (options.model, options.seed, pixel, id);
             // The planner's scene has other parameters, and so other paths.
-            let rendered = options.plan.map_or(&loaded.valid, |plan| &plan.scene);
-            Failure::Job(format!("{error}{}", path::in_words(rendered, path)))
+            let (model, seed) = (options.model(), options.seed);
+            let path = path::in_words(prepared.scene(), model, seed, pixel, id);
+            Failure::Job(format!("{error}{path}"))
         }
-        RenderError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
-        RenderError::Budget(problems) => loaded.report(problems).into(),
+        RenderError::Oracle(error) => prepare::without_circuit(&error, loaded),
+        RenderError::Budget(problems) => prepare::over_budget(problems, loaded),
         RenderError::WouldNotFit(error) => memory::refused(&error),
         RenderError::Interrupted {
             checkpoint: Some(_),
@@ -427,9 +470,11 @@ fn failure(error: RenderError, loaded: &Loaded, options: &Options<'_>) -> Failur
 #[cfg(test)]
 mod tests {
     use super::*;
-    use qrt_runtime::plan::{ErrorParts, Figures, Plan};
+    use qrt_runtime::memory::Memory;
+    use qrt_runtime::plan::{ErrorParts, Plan, PlanFigures};
     use qrt_scene::Accuracy;
     use qrt_scene::front::parse;
+    use qrt_scene::valid::ValidScene;
 
     /// A wall that fills the picture.
     const WALL: &str = "
@@ -449,7 +494,7 @@ sampling: { path_bits: 5 }
 
     fn planned(scene: ValidScene) -> Plan {
         let parameters = scene.parameters();
-        let figures = Figures {
+        let figures = PlanFigures {
             accuracy: Accuracy {
                 error: 0.1,
                 confidence: 0.9,
@@ -478,11 +523,9 @@ sampling: { path_bits: 5 }
     fn a_path_beyond_its_bound_is_traced_in_the_scene_that_was_rendered() {
         let asked = wall("asked");
         let plan = planned(wall("chosen").valid);
-        for (plan, name) in [(None, "asked"), (Some(&plan), "chosen")] {
-            let options = Options {
-                plan,
-                ..Options::default()
-            };
+        for (plan, name) in [(None, "asked"), (Some(plan), "chosen")] {
+            let prepared = Prepared::with_plan(&asked.valid, plan, Memory::default());
+            let options = RenderOptions::default();
             let error = RenderError::OutOfBounds {
                 pixel: [1, 0],
                 id: 3,
@@ -491,7 +534,7 @@ sampling: { path_bits: 5 }
                 bound: 2.0,
                 fraction: None,
             };
-            let told = failure(error, &asked, &options).to_string();
+            let told = failure(error, &asked, &prepared, &options).to_string();
             assert!(told.contains(&format!("(`{name}`)")), "{told}");
         }
     }

@@ -52,7 +52,7 @@ fn stats(rendered: &Rendered, clipped: u64) -> Value {
             "counting_error": rendered.parameters.counting.error,
         },
         "strata_used": strata_used(rendered),
-        "plan": rendered.plan.as_ref().map(super::plan::json),
+        "plan": rendered.plan.as_ref().map(qrt_lab::json::plan),
         "paths": rendered.paths,
         "paths_resumed": rendered.resumed_paths,
         "seconds": rendered.seconds,

@@ -1,9 +1,9 @@
 //! Estimates the time of work before it begins, and prints it if it is long; the user may still have meant it.
 
 use super::terminal;
+use qrt_runtime::Prepared;
 use qrt_runtime::memory::CircuitSize;
 use qrt_runtime::render::Model;
-use qrt_scene::valid::ValidScene;
 
 /// Paths per second of a thread by `real`: a round figure, for an estimate of hours or days.
 const PATHS: f64 = 1e6;
@@ -32,19 +32,21 @@ fn seconds(size: Option<CircuitSize>, model: Model) -> f64 {
 }
 
 /// Prints the time to trace all paths of `pixels` pixels on each of `models`, each `times` times, if it is
-/// long.
+/// long. Only the models of a circuit need a scene that has one.
 pub(crate) fn tell_of_paths(
-    scene: &ValidScene,
+    prepared: &Prepared<'_>,
     pixels: f64,
     times: f64,
     models: &[Model],
     threads: usize,
 ) {
-    let bits = scene.scene().sampling.path_bits;
+    let bits = prepared.scene().scene().sampling.path_bits;
     let paths = times * pixels * libm::exp2(f64::from(bits));
-    // Fewer paths run quickly on any circuit, and estimating the circuit's size would not be quick.
+    // Fewer paths run quickly on any circuit, and a search for primary hits needs no other circuit's size.
     let of_circuit = paths > FEW_PATHS && models.iter().any(|model| *model != Model::Real);
-    let size = of_circuit.then(|| CircuitSize::estimated(scene)).flatten();
+    let size = of_circuit
+        .then(|| prepared.circuit_size([0, 0]).ok())
+        .flatten();
     let of_path = models.iter().map(|model| seconds(size, *model));
     let seconds = paths * of_path.sum::<f64>() / threads as f64;
     let plural = if pixels == 1.0 { "" } else { "s" };

@@ -3,15 +3,14 @@
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, keep_off_stdout};
-use super::memory;
+use super::prepare::{self, Preparation};
 use super::progress::Bar;
-use super::{interrupt, plan, terminal, time};
+use super::{interrupt, memory, terminal, time};
 use clap::Args;
-use qrt_runtime::memory::CircuitWork;
-use qrt_runtime::plan::Options as PlanOptions;
+use qrt_lab::trade::{TradeError, TradeOptions, trade};
+use qrt_runtime::plan::PlanOptions;
 use qrt_runtime::render::{Model, Portion};
 use qrt_runtime::sample::SampleError;
-use qrt_runtime::trade::{Options, TradeError, trade};
 use qrt_runtime::workers::Workers;
 use std::ffi::OsStr;
 use std::fs;
@@ -38,7 +37,7 @@ Examples:
   qrt trade box.yaml -o box-trade                 everything, in some minutes
   qrt trade box.yaml -o box-trade --quick         the outlines, in less than one
   qrt trade box.yaml -o wide --set precision.fraction=20
-  qrt trade box.yaml -o part0 --tile 0/2          a half of it, perhaps on another machine
+  qrt trade box.yaml -o part0 --portion 0/2       a half of it, perhaps on another machine
   qrt trade box.yaml -o whole --parts part0 part1 the whole, of the halves")]
 pub(crate) struct TradeArgs {
     /// The folder to write to; it is made if it is not there
@@ -61,9 +60,10 @@ pub(crate) struct TradeArgs {
         allow_hyphen_values = true,
         conflicts_with = "parts"
     )]
-    tile: Option<Portion>,
-    /// Take over the rows that these folders have, from --tile or otherwise; what none of them has, such as
-    /// a portion that was lost, is measured. Two may have the same row, but not different ones of a setting
+    portion: Option<Portion>,
+    /// Take over the rows that these folders have, from --portion or otherwise; what none of them
+    /// has, such as a portion that was lost, is measured. Two may have the same row, but not
+    /// different ones of a setting
     #[arg(long, value_name = "DIR", num_args = 1..)]
     parts: Vec<PathBuf>,
     #[command(flatten)]
@@ -97,8 +97,6 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(message));
     }
     let loaded = args.scene.load()?;
-    let work = CircuitWork::Gates(args.threads.or_cores());
-    memory::keep_circuit(args.scene.memory(), &loaded.valid, work)?;
     keep_apart_from(&args.output, &args.scene.scene, loaded.valid.files())?;
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.quiet);
@@ -108,19 +106,27 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         cancel: Some(&cancel),
         progress: Some(&show),
     };
-    let planning = PlanOptions {
-        workers,
-        ..PlanOptions::default()
+    let preparation = Preparation {
+        memory: args.scene.memory(),
+        planning: PlanOptions {
+            workers,
+            ..PlanOptions::default()
+        },
+        shows_plan: !args.quiet,
     };
-    let planned = plan::choose(&loaded.valid, &planning, args.quiet)?;
-    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
-    let options = Options {
+    let prepared = preparation.prepare(&loaded)?;
+    let scene = prepared.scene();
+    let fits = preparation.memory.keep_compiling(scene);
+    fits.map_err(|error| memory::refused(&error))?;
+    prepare::note_compiling(scene);
+    let options = TradeOptions {
         pixels: args.pixels,
         seed: args.seed,
         quick: args.quick,
-        portion: args.tile.unwrap_or_default(),
+        portion: args.portion.unwrap_or_default(),
         parts: &args.parts,
         workers,
+        memory: preparation.memory,
     };
     if !args.quiet {
         let film = scene.scene().film;
@@ -128,14 +134,15 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
         let usual = if args.quick { 32 } else { 256 };
         let pixels = film.min(args.pixels.unwrap_or(usual) as f64);
         let threads = args.threads.or_cores();
-        let pixels = pixels / f64::from(args.tile.unwrap_or_default().count());
-        time::tell_of_paths(scene, pixels, TRACED_ANEW, &[Model::Real], threads);
+        let pixels = pixels / f64::from(args.portion.unwrap_or_default().count());
+        time::tell_of_paths(&prepared, pixels, TRACED_ANEW, &[Model::Real], threads);
     }
     bar.set_up();
     let measured = trade(scene, &args.output, &options);
     bar.clear();
     let measured = measured.map_err(|error| match &error {
-        TradeError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
+        TradeError::Oracle(error) => prepare::without_circuit(error, &loaded),
+        TradeError::WouldNotFit(error) => memory::refused(error),
         TradeError::Sample(SampleError::Interrupted { .. }) => Failure::Job(format!(
             "interrupted; the same command goes on from what `{}` has",
             args.output.join("trade.csv").display()
@@ -158,7 +165,7 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
             "{anew} rows were in none of the parts, and were measured here"
         ));
     }
-    if let Some(portion) = args.tile {
+    if let Some(portion) = args.portion {
         let table = args.output.join("trade.csv");
         let rows = measured.rows.len();
         return terminal::print(&format!(

@@ -1,6 +1,6 @@
 //! Tests that no files of a crate import each other in a circle. A module and one that contains it do not count: the
-//! outer declares the inner, and the inner may use its types. Re-exports are not followed: a circle by way of a parent's
-//! `pub use` is not found.
+//! outer declares the inner, and the inner may use its types. Re-exports are followed to the file
+//! that defines the name: `use super::X` is an import of the sibling from which the parent has `X`.
 
 use super::rooms_import_downwards::{code, sources, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,6 +12,7 @@ const CRATES: &[&str] = &[
     "qrt-circuit/src",
     "qrt-core/src",
     "qrt-counting/src",
+    "qrt-lab/src",
     "qrt-machines/src",
     "qrt-macros/src",
     "qrt-runtime/src",
@@ -60,15 +61,87 @@ fn modules(folder: &Path, files: Vec<PathBuf>) -> BTreeMap<Module, String> {
         .collect()
 }
 
-/// The modules that a module's `use` declarations name, without those around it and in it.
+/// The modules that a module's `use` declarations name, and those that define the names, without
+/// those around the module and in it.
 fn imports(from: &Module, text: &str, modules: &BTreeMap<Module, String>) -> BTreeSet<Module> {
+    let mut found = BTreeSet::new();
+    for path in paths(text) {
+        if let Some((module, name)) = named(from, &path, modules) {
+            if let Some(name) = name {
+                found.extend(definition(&module, &name, modules, 0));
+            }
+            found.insert(module);
+        }
+    }
+    found.retain(|to| !to.starts_with(from) && !from.starts_with(to));
+    found
+}
+
+/// The paths of all `use` declarations of a text, without braces.
+fn paths(text: &str) -> Vec<String> {
     let declarations = text.split("use ").skip(1);
     let declarations = declarations.filter_map(|rest| rest.split_once(';'));
     let paths = declarations.flat_map(|(declaration, _)| expanded(declaration.trim()));
-    let modules = paths.filter_map(|path| named(from, &path, modules));
-    modules
-        .filter(|to| !to.starts_with(from) && !from.starts_with(to))
-        .collect()
+    paths.collect()
+}
+
+/// Most re-exports of a name, one of the other.
+const MOST_STEPS: u32 = 8;
+
+/// The module that defines the name that `module` imports or re-exports as `name`; `None` if
+/// `module` has no such declaration, so that the name is its own.
+fn definition(
+    module: &Module,
+    name: &str,
+    modules: &BTreeMap<Module, String>,
+    steps: u32,
+) -> Option<Module> {
+    assert!(
+        steps < MOST_STEPS,
+        "{module:?} re-exports {name} in a circle"
+    );
+    let follow = |from: &Module, name: &str| {
+        definition(from, name, modules, steps + 1).unwrap_or_else(|| from.clone())
+    };
+    let mut all = Vec::new();
+    for path in paths(&modules[module]) {
+        let (path, alias) = match path.split_once(" as ") {
+            Some((path, alias)) => (path.trim(), Some(alias.trim())),
+            None => (path.trim(), None),
+        };
+        let last = path.rsplit("::").next()?;
+        if alias.unwrap_or(last) == name {
+            let (to, rest) = named(module, path, modules)?;
+            return Some(rest.map_or(to.clone(), |rest| follow(&to, &rest)));
+        }
+        if last == "*" {
+            let globbed = named(module, path.trim_end_matches("::*"), modules);
+            all.extend(globbed.and_then(|(to, rest)| rest.is_none().then_some(to)));
+        }
+    }
+    if defines(&modules[module], name) {
+        return None;
+    }
+    let below = all
+        .iter()
+        .filter(|to| *to != module && to.starts_with(module));
+    let mut found = below.filter_map(|to| {
+        let own = defines(&modules[to], name).then(|| to.clone());
+        own.or_else(|| definition(to, name, modules, steps + 1))
+    });
+    found.next()
+}
+
+/// True if a text defines an item of that name.
+fn defines(text: &str, name: &str) -> bool {
+    const ITEMS: [&str; 7] = ["struct", "enum", "trait", "type", "fn", "const", "static"];
+    let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let mut before = "";
+    words.any(|word| {
+        let found = word == name && ITEMS.contains(&before);
+        before = word;
+        found
+    })
 }
 
 /// The paths of a `use` declaration, without braces.
@@ -88,15 +161,22 @@ fn expanded(path: &str) -> Vec<String> {
         .collect()
 }
 
-/// The innermost module on a path in module `from`.
-fn named(from: &Module, path: &str, modules: &BTreeMap<Module, String>) -> Option<Module> {
+/// The innermost module on a path in module `from`, and the name in it that the path continues
+/// with, if there is one.
+fn named(
+    from: &Module,
+    path: &str,
+    modules: &BTreeMap<Module, String>,
+) -> Option<(Module, Option<String>)> {
+    let path = path.split(" as ").next()?;
     let mut parts = path.split("::").map(str::trim).peekable();
     let mut module = match *parts.peek()? {
         "crate" => Module::new(),
         "self" | "super" => from.clone(),
         first => {
             let inner = [from.as_slice(), &[first.to_owned()]].concat();
-            return modules.contains_key(&inner).then_some(inner);
+            modules.contains_key(&inner).then_some(())?;
+            from.clone()
         }
     };
     while let Some(part) = parts.next_if(|part| ["crate", "self", "super"].contains(part)) {
@@ -104,14 +184,16 @@ fn named(from: &Module, path: &str, modules: &BTreeMap<Module, String>) -> Optio
             module.pop();
         }
     }
+    let mut name = None;
     for part in parts {
         module.push(part.to_owned());
         if !modules.contains_key(&module) {
             module.pop();
+            name = (part != "self" && part != "*").then(|| part.to_owned());
             break;
         }
     }
-    modules.contains_key(&module).then_some(module)
+    modules.contains_key(&module).then_some((module, name))
 }
 
 /// Groups of modules each of which reaches all others of its group.
@@ -153,16 +235,37 @@ fn a_circle_is_found_and_a_child_is_none() {
         ("c", "use crate::a::{W, V as U};"),
         ("d", "use std::fmt;"),
     ];
+    assert_eq!(circles_of(&texts), [["a", "b", "c"]]);
+}
+
+#[test]
+fn a_circle_by_way_of_re_exports_is_found() {
+    // `a` takes Y from the parent, which has it from `b`; `b` takes X from the parent, which has it
+    // under another name.
+    let texts = [
+        (
+            "",
+            "mod a; mod b; mod d; pub use a::X as W; pub use b::*; pub use d::{Z, V};",
+        ),
+        ("a", "use super::Y; use super::V; pub struct X;"),
+        ("b", "mod c; pub(crate) use c::Y;"),
+        ("b/c", "use crate::W; pub struct Y;"),
+        ("d", "use crate::T; pub struct Z; pub struct V;"),
+    ];
+    assert_eq!(circles_of(&texts), [["a", "b/c"]]);
+}
+
+fn circles_of(texts: &[(&str, &str)]) -> Vec<Vec<String>> {
     let modules: BTreeMap<Module, String> = texts
         .iter()
         .map(|(path, text)| {
-            let module = path.split('/').map(str::to_owned).collect();
-            (module, (*text).to_owned())
+            let parts = path.split('/').filter(|part| !part.is_empty());
+            (parts.map(str::to_owned).collect(), (*text).to_owned())
         })
         .collect();
     let imports = modules
         .iter()
         .map(|(module, text)| (module, imports(module, text, &modules)))
         .collect();
-    assert_eq!(circles(&imports), [["a", "b", "c"]]);
+    circles(&imports)
 }

@@ -3,14 +3,15 @@
 
 use std::path::Path;
 
-/// Returns the groups of exports of `prelude.rs`: their names, and the documentation.
+/// Returns the groups of exports of `prelude.rs`: their names, and the documentation without
+/// included files.
 fn exports(prelude: &str) -> Vec<(Vec<String>, String)> {
     let (mut docs, mut path, mut found) = (String::new(), String::new(), Vec::new());
     for line in prelude.lines() {
         if let Some(doc) = line.strip_prefix("///") {
             docs.push_str(doc);
             docs.push('\n');
-        } else if !line.starts_with("//!") {
+        } else if !line.starts_with("//!") && !line.starts_with("#[doc") {
             path.push_str(line.trim());
         }
         let Some(whole) = path

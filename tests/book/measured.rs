@@ -3,8 +3,8 @@
 //! threads.
 //!
 //! In a table of `docs/figures.md` the column `measured` holds the first three and the column
-//! `command` the last. In a sentence all four stand behind the figure, in any order:
-//! "1.46 million paths a second (Zen 5, 1 thread, `c4f441f`, `cargo bench --bench fixed`)".
+//! `command` the last. In a sentence all four stand behind the figure, in any order: "1.46 million
+//! paths a second (Zen 5, 1 thread, `c4f441f`, `cargo bench --bench machines -- fixed`)".
 
 use super::page::{Page, pages, report};
 use std::fs;

@@ -2,9 +2,9 @@
 //! pixel, on every machine, uncomputed, and as exported text.
 
 use crate::common::scene::written;
-use qrt::circuit::export::Format;
+use qrt::circuit::export::ExportFormat;
 use qrt::circuit::{Contents, Gate, Op, Operand, RegisterId};
-use qrt::core::oracle::{BoundProgram, Options, Oracle};
+use qrt::core::oracle::{BoundProgram, Oracle, OracleOptions};
 use qrt::runtime::path_machines::{OracleMachine, run_paths};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ fn scenes() -> [(Oracle, [[u32; 2]; 3]); 2] {
     let small = ["comparator.bits=4", "sampling.path_bits=5"];
     let of = |text: &str, more: &[&str]| {
         let scene = written(text, &[&small, more].concat());
-        Oracle::rgb(&scene, Options::default()).unwrap()
+        Oracle::rgb(&scene, OracleOptions::default()).unwrap()
     };
     // Pixels in a wall, at an edge, in the lamp; and scopes that are uncomputed and computed again.
     let blocks = include_str!("../scenes/blocks.yaml");
@@ -133,7 +133,7 @@ fn followed(text: &str, path: u64) -> BTreeMap<&str, u64> {
 
 fn written_as_text(bound: &BoundProgram) -> String {
     let mut text = Vec::new();
-    let tally = bound.write(Format::OpenQasm3, &mut text).unwrap();
+    let tally = bound.write(ExportFormat::OpenQasm3, &mut text).unwrap();
     let mut gates = 0;
     bound.each_gate(|gate| {
         assert!(!matches!(gate, Gate::Load { .. }));

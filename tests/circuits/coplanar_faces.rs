@@ -108,11 +108,11 @@ fn red(rendered: &Rendered) -> Vec<f64> {
     rendered.image.pixels.iter().map(|pixel| pixel[0]).collect()
 }
 
-fn exact(model: Model) -> Options<'static> {
-    Options {
-        model,
+fn exact(model: Model) -> RenderOptions<'static> {
+    RenderOptions {
+        model: Some(model),
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 

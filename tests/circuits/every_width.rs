@@ -6,7 +6,7 @@ use crate::common::scene::{from_file, written};
 use proptest::prelude::*;
 use qrt::circuit::{Register, Type};
 use qrt::core::oracle::Oracle;
-use qrt::machines::{Extremes, contents};
+use qrt::machines::{Extremes, contents_by_definition};
 use qrt::runtime::path_machines::{OracleMachine, Real};
 use qrt::scene::valid::ValidScene;
 use std::fmt::Write;
@@ -337,7 +337,7 @@ fn extremes_enclose_what_is_held() {
     let words = oracle.parameter_words(SEED, [1, 1]);
     let mut extremes = Extremes::new(&oracle.program);
     for id in 0..32 {
-        let found = contents(&oracle.program, &inputs(&oracle, id), &words);
+        let found = contents_by_definition(&oracle.program, &inputs(&oracle, id), &words);
         let recorded = extremes.record(&oracle.program, &inputs(&oracle, id), &words);
         assert_eq!(found, recorded);
         for (place, register) in oracle.program.registers.iter().enumerate() {

@@ -7,9 +7,9 @@ use crate::common::numbers::Numbers;
 use crate::common::scene::from_file;
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
-use qrt::core::oracle::{CallCost, Layout, Layouts, Options, Oracle};
+use qrt::core::oracle::{CallCost, Oracle, OracleOptions, Oracles, StrategyCost};
 use qrt::core::tracer::PixelClass;
-use qrt::runtime::layouts;
+use qrt::lab::layouts;
 use qrt::runtime::path_machines::OracleMachine;
 use qrt::runtime::workers::Workers;
 use qrt::scene::front::parse;
@@ -22,11 +22,11 @@ const SEED: u64 = 7;
 
 /// Runs all paths of all pixels under each of `layouts` of channel `channel`. `name` identifies the scene in
 /// messages.
-fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
+fn check(scene: &ValidScene, channel: usize, layouts: &[StrategyCost], name: &str) {
     let under = |strategy| {
-        let options = Options {
+        let options = OracleOptions {
             strategy: Some(strategy),
-            ..Options::default()
+            ..OracleOptions::default()
         };
         Arc::new(Oracle::new(scene, channel, options).unwrap())
     };
@@ -54,13 +54,14 @@ fn check(scene: &ValidScene, channel: usize, layouts: &[Layout], name: &str) {
 }
 
 /// Returns the strategies that no other beats; checks that `auto` finds every seventh of them.
-fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
+fn front(scene: &ValidScene, channel: usize) -> Vec<StrategyCost> {
     let workers = Workers {
         threads: NonZeroUsize::new(1),
         ..Workers::default()
     };
-    let front = layouts::front(scene, channel, PixelClass::default(), &workers).unwrap();
-    let all = Layouts::new(scene, channel);
+    let oracles = Oracles::new(scene);
+    let all = oracles.layouts(channel, PixelClass::default());
+    let front = layouts::front(&all, &workers).unwrap();
     for layout in front.iter().step_by(7) {
         let auto = all.cheapest(layout.cost.qubits).unwrap();
         let cost = all.under(auto).unwrap().cost;
@@ -70,7 +71,7 @@ fn front(scene: &ValidScene, channel: usize) -> Vec<Layout> {
 }
 
 /// Checks the layouts of up to `scenes` random scenes, skipping invalid ones, on one thread per core.
-fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<Layout>) {
+fn random(scenes: usize, seed: u64, layouts: fn(&ValidScene, usize) -> Vec<StrategyCost>) {
     let next = AtomicUsize::new(0);
     let checked = AtomicUsize::new(0);
     let circuits = AtomicUsize::new(0);

@@ -7,7 +7,7 @@ use qrt::circuit::lower;
 use qrt::core::oracle::NearestOracle;
 use qrt::core::tracer::{PixelClass, Stage};
 use qrt::counting::random::Stream;
-use qrt::runtime::path_machines::{Answers, Asked, Candidate, NearestMachine};
+use qrt::runtime::path_machines::{Answers, Candidate, NearestMachine, NearestQuery};
 use qrt::runtime::search::marked_probability;
 use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
@@ -19,13 +19,13 @@ fn oracle(scene: &ValidScene) -> Arc<NearestOracle> {
 }
 
 /// Returns `count` random paths all over the film.
-fn some_rays(scene: &ValidScene, count: u64) -> Vec<Asked> {
+fn some_rays(scene: &ValidScene, count: u64) -> Vec<NearestQuery> {
     let film = scene.scene().film;
     let mut stream = Stream::new(1, 0, 0, 0);
     let mut below = |bound: u32| (stream.uniform() * f64::from(bound)) as u32;
     let paths = 1 << scene.scene().sampling.path_bits;
     (0..count)
-        .map(|_| Asked {
+        .map(|_| NearestQuery {
             pixel: [below(film.width), below(film.height)],
             id: u64::from(below(paths)),
             best: None,

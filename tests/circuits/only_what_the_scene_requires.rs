@@ -1,9 +1,9 @@
 //! Tests that a circuit holds the parts that its scene requires, and no others.
 
 use crate::common::scene::written;
-use qrt::circuit::{Circuit, Op, Program, lower};
+use qrt::circuit::{GateCircuit, Op, Program, lower};
 use qrt::core::compile::Passes;
-use qrt::core::oracle::{Options, Oracle};
+use qrt::core::oracle::{Oracle, OracleOptions};
 
 const ROOM: &str = "
 name: room
@@ -22,11 +22,11 @@ sampling:
 ";
 
 fn program(text: &str) -> Program {
-    let oracle = Oracle::new(&written(text, &[]), 0, Options::default()).unwrap();
+    let oracle = Oracle::new(&written(text, &[]), 0, OracleOptions::default()).unwrap();
     oracle.whole(0)
 }
 
-fn circuit(text: &str) -> Circuit {
+fn circuit(text: &str) -> GateCircuit {
     lower::circuit(&program(text))
 }
 
@@ -135,9 +135,9 @@ fn no_glass_no_roots_and_no_refraction() {
 #[test]
 fn weights_that_depend_on_materials_alone_are_tables() {
     let products = |passes: Passes| {
-        let options = Options {
+        let options = OracleOptions {
             passes,
-            ..Options::default()
+            ..OracleOptions::default()
         };
         let program = Oracle::new(&written(ROOM, &[]), 0, options)
             .unwrap()
@@ -155,9 +155,9 @@ fn weights_that_depend_on_materials_alone_are_tables() {
 #[test]
 fn every_pass_pays() {
     let toffoli = |passes: Passes| {
-        let options = Options {
+        let options = OracleOptions {
             passes,
-            ..Options::default()
+            ..OracleOptions::default()
         };
         let room = changed("sampling:", TILTED);
         let whole = Oracle::new(&written(&room, &[]), 0, options)

@@ -3,7 +3,7 @@
 pub(crate) mod simulator;
 
 use qrt::circuit::{Operand, Word};
-use qrt::core::oracle::{Options, Oracle};
+use qrt::core::oracle::{Oracle, OracleOptions};
 use qrt::runtime::path_machines::{Defect, OracleMachine};
 use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ comparator: { bits: 4 }
 ";
 
 pub(crate) fn oracle(scene: &ValidScene) -> Arc<Oracle> {
-    Arc::new(Oracle::rgb(scene, Options::default()).unwrap())
+    Arc::new(Oracle::rgb(scene, OracleOptions::default()).unwrap())
 }
 
 /// Returns all pixels of the oracle's film, row by row.

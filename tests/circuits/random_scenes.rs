@@ -2,7 +2,7 @@
 //! bit, and floating point differs only by the width of numbers.
 
 use crate::common::numbers::Numbers;
-use qrt::runtime::verify::{Options, verify};
+use qrt::lab::verify::{VerifyOptions, verify};
 use qrt::scene::front::parse;
 use std::fmt::Write as _;
 
@@ -99,10 +99,10 @@ fn check(scenes: usize, seed: u64) {
                     let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
                         continue;
                     };
-                    let mut options = Options {
+                    let mut options = VerifyOptions {
                         pixels: 2,
                         seed: number as u64,
-                        ..Options::default()
+                        ..VerifyOptions::default()
                     };
                     options.workers.threads = std::num::NonZeroUsize::new(1);
                     let report = verify(&loaded.valid, &options);

@@ -6,7 +6,8 @@ use crate::common::command::Folder;
 use crate::common::scene::{from_file, written};
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
-use qrt::core::oracle::{Layout, Layouts, Options, Oracle, call_cost};
+use qrt::core::oracle::{Oracle, OracleOptions, Oracles, StrategyCost, call_cost};
+use qrt::core::tracer::PixelClass;
 use qrt::runtime::path_machines::OracleMachine;
 use qrt::scene::valid::ValidScene;
 use std::collections::HashSet;
@@ -16,9 +17,9 @@ use std::sync::Arc;
 /// same as under `keep`.
 fn agree(scene: &ValidScene, strategies: &[Strategy]) {
     let under = |strategy| {
-        let options = Options {
+        let options = OracleOptions {
             strategy: Some(strategy),
-            ..Options::default()
+            ..OracleOptions::default()
         };
         Arc::new(Oracle::rgb(scene, options).unwrap())
     };
@@ -54,7 +55,8 @@ fn so_do_those_of_auto_in_an_example_scene() {
         "comparator.bits=5",
     ];
     let scene = from_file("scenes-yaml/lit-box.yaml", &small);
-    let all = Layouts::new(&scene, 0);
+    let oracles = Oracles::new(&scene);
+    let all = oracles.layouts(0, PixelClass::default());
     let keep = all.under(Strategy::KEEP).unwrap().cost.qubits;
     let strategies = (1..7).map(|half| all.cheapest(keep >> half).unwrap());
     let strategies: Vec<Strategy> = strategies.collect();
@@ -62,16 +64,24 @@ fn so_do_those_of_auto_in_an_example_scene() {
     agree(&scene, &strategies);
 }
 
+/// Returns the scene with paths of one ray.
+fn one_ray(scene: &ValidScene) -> ValidScene {
+    let mut parameters = scene.parameters();
+    parameters.sampling.depths.truncate(1);
+    scene.with_parameters(parameters).unwrap()
+}
+
 #[test]
 fn auto_is_the_cheapest_that_fits() {
     let scene = written(CORNER, &[]);
-    let (name, keep) = Layout::of_most_expensive(&scene, Strategy::KEEP).unwrap();
+    let oracles = Oracles::new(&scene);
+    let (name, keep) = StrategyCost::of_most_expensive(&oracles, Strategy::KEEP).unwrap();
     let channel = name.channel;
-    let all = Layouts::new(&scene, channel);
+    let all = oracles.layouts(channel, PixelClass::default());
     let layouts = Strategy::all()
         .into_iter()
         .map(|strategy| all.under(strategy).unwrap());
-    let front = Layout::front(layouts.collect());
+    let front = StrategyCost::front(layouts.collect());
     assert_eq!(front[0], keep);
     assert!(front.len() > 20);
     for place in (1..front.len()).step_by(3) {
@@ -79,33 +89,36 @@ fn auto_is_the_cheapest_that_fits() {
         for qubits in [front[place].cost.qubits, front[place - 1].cost.qubits - 1] {
             let budget = format!("budget.qubits={qubits}");
             let scene = written(CORNER, &["circuit.uncompute=auto", &budget]);
-            let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
+            let oracle = Oracle::new(&scene, channel, OracleOptions::default()).unwrap();
             assert_eq!(call_cost(&[oracle]), front[place].cost, "{budget}");
         }
     }
     // If no strategy fits, the error names the least number of qubits.
     let scene = written(CORNER, &["circuit.uncompute=auto", "budget.qubits=1"]);
-    let oracle = Oracle::new(&scene, channel, Options::default()).unwrap();
+    let oracle = Oracle::new(&scene, channel, OracleOptions::default()).unwrap();
     assert_eq!(
         call_cost(&[oracle]).qubits,
         front.last().unwrap().cost.qubits
     );
-    // The cached strategy of a scene is not used for a part of the scene.
+    // The cached strategy of a scene is not used for the scene with other parameters.
     let written_for = |qubits: u64| {
         let budget = format!("budget.qubits={qubits}");
         written(CORNER, &["circuit.uncompute=auto", &budget])
     };
-    let one_ray = written(CORNER, &[]).with_rays(1);
-    let (_, keep) = Layout::of_most_expensive(&one_ray, Strategy::KEEP).unwrap();
+    let short = one_ray(&written(CORNER, &[]));
+    let (_, keep) = StrategyCost::of_most_expensive(&Oracles::new(&short), Strategy::KEEP).unwrap();
     let scene = written_for(keep.cost.qubits);
-    let strategy = |scene: &ValidScene| Options::default().strategy(scene).unwrap();
+    let strategy = |scene: &ValidScene| OracleOptions::default().strategy(scene).unwrap();
     let found = strategy(&scene);
     assert!(found != Strategy::KEEP && found == strategy(&scene));
-    assert_eq!(strategy(&scene.with_rays(1)), Strategy::KEEP);
+    assert_eq!(strategy(&one_ray(&scene)), Strategy::KEEP);
     assert_eq!(strategy(&scene.clone()), found);
     // Without a budget, nothing is uncomputed early.
     let scene = written(CORNER, &["circuit.uncompute=auto"]);
-    assert_eq!(Options::default().strategy(&scene), Ok(Strategy::KEEP));
+    assert_eq!(
+        OracleOptions::default().strategy(&scene),
+        Ok(Strategy::KEEP)
+    );
 }
 
 /// Runs the box as it is, on fewer qubits than the rays and hits of a path alone had under `keep`: two
@@ -115,9 +128,9 @@ fn the_box_fits_into_five_hundred_qubits() {
     let sets = ["circuit.uncompute=auto", "budget.qubits=500"];
     let scene = from_file("scenes-yaml/cornell-box.yaml", &sets);
     let under = |strategy| {
-        let options = Options {
+        let options = OracleOptions {
             strategy,
-            ..Options::default()
+            ..OracleOptions::default()
         };
         Arc::new(Oracle::new(&scene, 0, options).unwrap())
     };

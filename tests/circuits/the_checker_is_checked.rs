@@ -8,13 +8,13 @@
 use super::paths::simulator::{States, qubits};
 use super::paths::{CORNER, film, inputs, number, oracle, paths, word};
 use crate::common::scene::written;
-use qrt::circuit::{Circuit, Gate, Op, Operand, Qubit, lower};
+use qrt::circuit::{Gate, GateCircuit, Op, Operand, Qubit, lower};
 use qrt::core::oracle::Oracle;
 use qrt::counting::random::Stream;
-use qrt::machines::contents;
+use qrt::lab::verify::{VerifyOptions, VerifyReport, verify, verify_parts};
+use qrt::machines::contents_by_definition;
 use qrt::runtime::path_machines::{Defect, OracleCircuits, OracleMachine};
 use qrt::runtime::render::Model;
-use qrt::runtime::verify::{Options, Report, verify, verify_parts};
 use qrt::scene::valid::ValidScene;
 use std::sync::Arc;
 
@@ -92,11 +92,11 @@ impl Checked {
     }
 
     /// Verifies all pixels with `parts`.
-    fn verified(&self, parts: OracleCircuits) -> Report {
-        let options = Options {
+    fn verified(&self, parts: OracleCircuits) -> VerifyReport {
+        let options = VerifyOptions {
             pixels: u64::MAX,
             seed: SEED,
-            ..Options::default()
+            ..VerifyOptions::default()
         };
         verify_parts(&self.scene, &self.oracle, parts, &options).unwrap()
     }
@@ -155,10 +155,10 @@ fn an_untouched_circuit_passes() {
         assert_eq!(checked.agree(checked.parts.clone()), Simulated::Right);
         let mirror = checked.mirrored(checked.parts.compute.gates.clone());
         assert_eq!(checked.agree(mirror), Simulated::Right);
-        let options = Options {
+        let options = VerifyOptions {
             pixels: 5,
             seed: SEED,
-            ..Options::default()
+            ..VerifyOptions::default()
         };
         assert!(verify(&checked.scene, &options).unwrap().holds());
     }
@@ -306,7 +306,7 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         for (number_of, pixel) in checked.pixels.iter().enumerate() {
             let words = oracle.parameter_words(SEED, *pixel);
             for id in 0..32 {
-                let held = contents(&wrong.program, &inputs(oracle, id), &words);
+                let held = contents_by_definition(&wrong.program, &inputs(oracle, id), &words);
                 let at = number_of * 32 + id as usize;
                 for c in 0..3 {
                     let colour = number(oracle.channels[c].colour, &held.registers);
@@ -435,7 +435,7 @@ fn one_wrong_gate_that_is_undone_is_caught_if_it_changes_a_path() {
         .enumerate()
     {
         let checked = Checked::new(sets);
-        let Circuit { gates, qubits, .. } = &checked.parts.compute;
+        let GateCircuit { gates, qubits, .. } = &checked.parts.compute;
         let places = drawn(6 + key as u64, MUTATIONS, gates.len());
         let others = drawn(8 + key as u64, MUTATIONS, *qubits as usize);
         let (mut caught, mut undone) = (0, 0);
@@ -485,10 +485,10 @@ fn a_colour_beyond_its_bound_is_noticed_by_every_machine() {
     }
     assert_eq!(found[0], found[1]);
     let parts = OracleCircuits::new(&wrong);
-    let options = Options {
+    let options = VerifyOptions {
         pixels: pixels.len() as u64,
         seed: SEED,
-        ..Options::default()
+        ..VerifyOptions::default()
     };
     let report = verify_parts(&scene, &wrong, parts, &options).unwrap();
     assert!(!report.holds());

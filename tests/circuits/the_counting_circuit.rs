@@ -4,8 +4,8 @@
 
 use super::paths::{oracle, paths};
 use crate::common::scene::written;
-use qrt::circuit::quantum::{Conjunction, Counting, Part, QuantumGate};
-use qrt::core::oracle::{Options, Oracle};
+use qrt::circuit::quantum::{CircuitPart, Conjunction, CountingCircuit, QuantumGate};
+use qrt::core::oracle::{Oracle, OracleOptions};
 use qrt::counting::amplitudes::{reduced, subspace};
 use qrt::counting::{PhaseDistribution, Stratum};
 use qrt::machines::statevector::{Checks, Sparse, StateVector, count, counting_of, fold};
@@ -68,7 +68,7 @@ fn tables(scene: &ValidScene) -> Vec<[Vec<bool>; 3]> {
 fn is_the_distribution(sets: &[&str], phase_bits: u32) {
     let scene = written(WALL, sets);
     let together = oracle(&scene);
-    let apart = [0, 1, 2].map(|c| Oracle::new(&scene, c, Options::default()).unwrap());
+    let apart = [0, 1, 2].map(|c| Oracle::new(&scene, c, OracleOptions::default()).unwrap());
     let mut different = std::collections::HashSet::new();
     for (pixel, tables) in PIXELS.iter().zip(tables(&scene)) {
         for (channel, table) in tables.iter().enumerate() {
@@ -144,7 +144,7 @@ fn gives_the_distribution_of_every_stratum() {
                 let fixed = &comparator[fixed.start as usize..fixed.end as usize];
                 let (ones, zeros) = fixed.split_at(usize::from(lowest));
                 let phase = phase.clone().with_fixed(zeros, ones).unwrap();
-                let counting = Counting::new(&phase, phase_bits, window).unwrap();
+                let counting = CountingCircuit::new(&phase, phase_bits, window).unwrap();
                 let mut machine = Sparse::new(counting.qubits());
                 let counted = count(&mut machine, &counting, Checks::EveryQuery).unwrap();
                 let within = stratum.thresholds();
@@ -156,12 +156,12 @@ fn gives_the_distribution_of_every_stratum() {
                 let off = off(&counted.distribution, &exact);
                 assert!(off < 1e-12, "{pixel:?} {stratum:?}: {off:e}");
                 let mut gates = 0;
-                let all = counting.part(Part::Counting, &mut |_| {
+                let all = counting.part(CircuitPart::Counting, &mut |_| {
                     gates += 1;
                     Ok::<(), std::convert::Infallible>(())
                 });
                 all.unwrap();
-                assert_eq!(gates, counting.gates(Part::Counting));
+                assert_eq!(gates, counting.gates(CircuitPart::Counting));
             }
         }
         let gone = phase.superposed().to_vec();
@@ -175,16 +175,16 @@ fn gives_the_distribution_of_every_stratum() {
 #[test]
 fn counts_the_others_where_the_reflection_has_the_other_sign() {
     let scene = written(WALL, &[]);
-    let oracle = Oracle::new(&scene, 0, Options::default()).unwrap();
+    let oracle = Oracle::new(&scene, 0, OracleOptions::default()).unwrap();
     let table = &tables(&scene)[0][0];
     let (total, phase_bits) = (table.len() as u64, 4);
     let good = table.iter().filter(|good| **good).count() as u64;
     assert!(good != total - good);
     let oracle = oracle.phase(0, SEED, PIXELS[0]).unwrap();
-    let counting = Counting::new(&oracle, phase_bits, Window::Rect).unwrap();
+    let counting = CountingCircuit::new(&oracle, phase_bits, Window::Rect).unwrap();
     let mut machine = Sparse::new(counting.qubits());
     counting
-        .part(Part::Counting, &mut |gate| match gate {
+        .part(CircuitPart::Counting, &mut |gate| match gate {
             // Only the gates that correct the sign are Zs on a qubit of the phase register.
             QuantumGate::Phase { on: [qubit], .. } if counting.phase_register().contains(qubit) => {
                 Ok(())
@@ -201,12 +201,15 @@ fn counts_the_others_where_the_reflection_has_the_other_sign() {
 /// A phase register adds the logarithm of its size to the qubits of an oracle.
 #[test]
 fn has_a_qubit_more_for_twice_the_size() {
-    let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
+    let oracle = Oracle::new(&written(WALL, &[]), 0, OracleOptions::default()).unwrap();
     let oracle = oracle.phase(0, SEED, PIXELS[0]).unwrap();
-    let iterate = Counting::new(&oracle, 1, Window::Rect).unwrap().qubits() - 1;
+    let iterate = CountingCircuit::new(&oracle, 1, Window::Rect)
+        .unwrap()
+        .qubits()
+        - 1;
     for phase_bits in 1..=30 {
         for (window, bond) in [(Window::Rect, 0), (Window::Sine, 1)] {
-            let counting = Counting::new(&oracle, phase_bits, window).unwrap();
+            let counting = CountingCircuit::new(&oracle, phase_bits, window).unwrap();
             assert_eq!(counting.qubits(), iterate + phase_bits + bond);
             assert_eq!(counting.queries(), (1 << phase_bits) - 1);
         }
@@ -219,23 +222,23 @@ fn has_a_qubit_more_for_twice_the_size() {
 #[test]
 fn may_be_written_without_many_controls() {
     let scene = written(WALL, &[]);
-    let oracle = Oracle::new(&scene, 2, Options::default()).unwrap();
+    let oracle = Oracle::new(&scene, 2, OracleOptions::default()).unwrap();
     let table = &tables(&scene)[1][2];
     let good = table.iter().filter(|good| **good).count() as u64;
     let oracle = oracle.phase(0, SEED, PIXELS[1]).unwrap();
-    let whole = Counting::new(&oracle, 4, Window::Sine).unwrap();
-    let toffolis = Counting::with(&oracle, 4, Window::Sine, Conjunction::Toffolis).unwrap();
+    let whole = CountingCircuit::new(&oracle, 4, Window::Sine).unwrap();
+    let toffolis = CountingCircuit::with(&oracle, 4, Window::Sine, Conjunction::Toffolis).unwrap();
     assert_eq!(whole.qubits(), toffolis.qubits());
     let mut machine = Sparse::new(toffolis.qubits());
     let counted = count(&mut machine, &toffolis, Checks::EveryQuery).unwrap();
     let exact = closed(good, table.len() as u64, 4, Window::Sine);
     assert!(off(&counted.distribution, &exact) < 1e-12);
-    assert_eq!(counted.report.gates, toffolis.gates(Part::Counting));
+    assert_eq!(counted.report.gates, toffolis.gates(CircuitPart::Counting));
 }
 
 #[test]
 fn has_no_fourth_channel() {
-    let oracle = Oracle::new(&written(WALL, &[]), 0, Options::default()).unwrap();
+    let oracle = Oracle::new(&written(WALL, &[]), 0, OracleOptions::default()).unwrap();
     let refused = oracle.phase(1, SEED, [0, 0]).unwrap_err();
     assert_eq!(refused.to_string(), "the oracle has no channel 1");
 }

@@ -8,9 +8,9 @@ use super::paths::{CORNER, inputs, number, oracle, paths};
 use crate::common::scene::written;
 use qrt::circuit::lower;
 use qrt::core::oracle::Oracle;
-use qrt::machines::{Gates, Span, contents};
+use qrt::machines::{GatesMachine, PixelLanes, contents_by_definition};
 use qrt::runtime::path_machines::OracleMachine;
-use qrt::runtime::render::{Model, Options, render};
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
 
@@ -28,7 +28,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
     #[allow(clippy::needless_range_loop)] // A channel's number, not a place alone.
     for c in 0..3 {
         let circuit = lower::circuit(&oracle.whole(c));
-        let machine = Gates::new(&[&circuit]).unwrap();
+        let machine = GatesMachine::new(&[&circuit]).unwrap();
         assert!(states.len() <= machine.lanes());
         let qubits = |register| {
             let mut inputs = circuit.inputs.iter();
@@ -44,7 +44,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
             let (ids, thresholds) = (values(|s| s.0), values(|s| s.1));
             rows.set(&id, &ids);
             rows.set(&comparator, &thresholds);
-            rows.set_parameters(&[Span {
+            rows.set_parameters(&[PixelLanes {
                 lanes: states.len(),
                 parameters: &words,
             }]);
@@ -57,7 +57,7 @@ fn whole(scene: &ValidScene, oracle: &Oracle, pixels: &[[u32; 2]]) -> Vec<[u64; 
             assert_eq!(after, thresholds);
             for (lane, (id, y)) in states.iter().enumerate() {
                 let turned = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
-                let held = contents(&oracle.program, &inputs(oracle, *id), &words);
+                let held = contents_by_definition(&oracle.program, &inputs(oracle, *id), &words);
                 let colour = number(oracle.channels[c].colour, &held.registers);
                 let count = number(oracle.channels[c].count, &held.registers);
                 // Flipped where y < count, ...
@@ -101,11 +101,11 @@ fn is_exact(sets: &[&str]) {
         }
     }
     for model in [Model::Fixed, Model::Gates] {
-        let options = Options {
+        let options = RenderOptions {
             seed: SEED,
-            model,
+            model: Some(model),
             estimator: Some(Estimator::Exact),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let picture = render(&scene, &options).unwrap();
         assert_eq!(picture.ids, ids);

@@ -88,7 +88,7 @@ fn portions_check_all_pixels_together() {
     let folder = folder();
     let whole = answer(&folder, &[]);
     let parts: Vec<Value> = (0..5)
-        .map(|k| answer(&folder, &["--tile", &format!("{k}/5")]))
+        .map(|k| answer(&folder, &["--portion", &format!("{k}/5")]))
         .collect();
     let pixels = |of: &Value| of["pixels"].as_array().unwrap().clone();
     let mut all: Vec<String> = parts
@@ -107,7 +107,7 @@ fn portions_check_all_pixels_together() {
     };
     let sum: f64 = parts.iter().map(squares).sum();
     assert!((sum - squares(&whole)).abs() < 1e-12 * sum);
-    let errors = folder.fails(2, &["verify", "corner.yaml", "--tile", "0/13"]);
+    let errors = folder.fails(2, &["verify", "corner.yaml", "--portion", "0/13"]);
     assert!(
         errors.contains("12 pixels can't be dealt out to 13 portions"),
         "{errors}"

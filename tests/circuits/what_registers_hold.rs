@@ -3,7 +3,7 @@
 //! computes both branches of `if_less`.
 
 use crate::common::scene::written;
-use qrt::core::oracle::{Options, Oracle};
+use qrt::core::oracle::{Oracle, OracleOptions};
 use qrt::runtime::render::{self, Model};
 use qrt::scene::Estimator;
 use qrt::scene::syntax::Problem;
@@ -38,17 +38,17 @@ fn scene(value: &str) -> ValidScene {
 
 /// Returns the code of the error with which a circuit of this value is refused.
 fn refused(value: &str) -> Option<&'static str> {
-    let refused = Oracle::rgb(&scene(value), Options::default()).err();
+    let refused = Oracle::rgb(&scene(value), OracleOptions::default()).err();
     refused.map(|error| Problem::code(&error.problem()))
 }
 
 /// Returns the greatest difference between the pictures of the real and the fixed machine, over the scale.
 fn difference(scene: &ValidScene) -> f64 {
     let [real, fixed] = [Model::Real, Model::Fixed].map(|model| {
-        let options = render::Options {
-            model,
+        let options = render::RenderOptions {
+            model: Some(model),
             estimator: Some(Estimator::Exact),
-            ..render::Options::default()
+            ..render::RenderOptions::default()
         };
         let rendered = render::render(scene, &options).unwrap();
         rendered.counts().collect::<Vec<_>>()

@@ -110,7 +110,7 @@ fn kept(folder: &Folder, scene: &ValidScene) -> u64 {
     // Read a copy, because opening cuts off a torn record.
     let copy = folder.path("copy");
     fs::copy(folder.path("p.exr.qrt-partial"), &copy).unwrap();
-    let options = Options {
+    let options = RenderOptions {
         checkpoint: Some(copy.clone()),
         resume: true,
         workers: Workers {
@@ -118,7 +118,7 @@ fn kept(folder: &Folder, scene: &ValidScene) -> u64 {
             progress: Some(&progress),
             ..Workers::default()
         },
-        ..Options::default()
+        ..RenderOptions::default()
     };
     // The checkpoint may be complete, so both results are fine.
     let _ = render(scene, &options);

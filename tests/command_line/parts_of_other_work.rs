@@ -18,9 +18,9 @@ fn verified(folder: &Folder, name: &str, arguments: &[&str]) -> Value {
 
 fn checked_parts(folder: &Folder) {
     for k in 0..5 {
-        let tile = format!("{k}/5");
-        let answer = verified(folder, &format!("{k}.json"), &["--tile", &tile]);
-        assert_eq!(answer["tile"], serde_json::json!([k, 5]));
+        let portion = format!("{k}/5");
+        let answer = verified(folder, &format!("{k}.json"), &["--portion", &portion]);
+        assert_eq!(answer["portion"], serde_json::json!([k, 5]));
     }
 }
 
@@ -28,7 +28,7 @@ fn checked_parts(folder: &Folder) {
 fn portions_of_a_check_make_the_answer_of_the_whole() {
     let folder = folder();
     let whole = verified(&folder, "whole.json", &[]);
-    assert!(whole["tile"].is_null());
+    assert!(whole["portion"].is_null());
     checked_parts(&folder);
     let names = ["2.json", "0.json", "4.json", "3.json", "1.json"];
     let parts = [&["--parts"], &names[..]].concat();
@@ -37,7 +37,7 @@ fn portions_of_a_check_make_the_answer_of_the_whole() {
         "version",
         "scene_hash",
         "seed",
-        "tile",
+        "portion",
         "holds",
         "paths",
         "qubits",
@@ -87,10 +87,14 @@ fn portions_that_make_no_check_are_named() {
     let folder = folder();
     checked_parts(&folder);
     verified(&folder, "whole.json", &[]);
-    verified(&folder, "seed.json", &["--tile", "1/5", "--seed", "1"]);
-    verified(&folder, "count.json", &["--tile", "1/4"]);
-    verified(&folder, "pixels.json", &["--tile", "1/5", "--pixels", "12"]);
-    let other = ["--tile", "1/5", "--set", "precision.fraction=11"];
+    verified(&folder, "seed.json", &["--portion", "1/5", "--seed", "1"]);
+    verified(&folder, "count.json", &["--portion", "1/4"]);
+    verified(
+        &folder,
+        "pixels.json",
+        &["--portion", "1/5", "--pixels", "12"],
+    );
+    let other = ["--portion", "1/5", "--set", "precision.fraction=11"];
     verified(&folder, "scene.json", &other);
     let text = fs::read_to_string(folder.path("1.json")).unwrap();
     fs::write(folder.path("cut.json"), &text[..text.len() / 2]).unwrap();
@@ -110,11 +114,11 @@ fn portions_that_make_no_check_are_named() {
         ),
         (
             "0 whole 2 3 4",
-            "`whole.json` is no answer of `qrt verify --tile",
+            "`whole.json` is no answer of `qrt verify --portion",
         ),
         (
             "0 cut 2 3 4",
-            "`cut.json` is no answer of `qrt verify --tile",
+            "`cut.json` is no answer of `qrt verify --portion",
         ),
     ] {
         let names: Vec<String> = names
@@ -130,7 +134,14 @@ fn portions_that_make_no_check_are_named() {
     }
     let errors = folder.fails(1, &["verify", "lit.yaml", "--parts", "none.json"]);
     assert!(errors.contains("none.json"), "{errors}");
-    let both = ["verify", "lit.yaml", "--tile", "0/5", "--parts", "0.json"];
+    let both = [
+        "verify",
+        "lit.yaml",
+        "--portion",
+        "0/5",
+        "--parts",
+        "0.json",
+    ];
     assert!(folder.fails(2, &both).contains("cannot be used with"));
 }
 
@@ -205,10 +216,10 @@ fn portions_of_a_table_make_the_table_and_what_is_lost_is_measured_again() {
     let folder = folder();
     trade(&folder, "whole", &["-q"]);
     for k in 0..3 {
-        let [tile, out] = [format!("{k}/3"), format!("part{k}")];
-        let said = trade(&folder, &out, &["--tile", &tile]);
+        let [portion, out] = [format!("{k}/3"), format!("part{k}")];
+        let said = trade(&folder, &out, &["--portion", &portion]);
         let rows = timeless(&folder, &out).len() - 1;
-        let expected = format!("{out}/trade.csv: {rows} rows, portion {tile} of the settings\n");
+        let expected = format!("{out}/trade.csv: {rows} rows, portion {portion} of the settings\n");
         assert_eq!(said, expected);
         assert!(!folder.path(format!("{out}/index.html")).exists());
     }
@@ -241,10 +252,10 @@ fn crc32(bytes: &[u8]) -> u32 {
 fn parts_of_a_table_that_disagree_are_refused() {
     let folder = folder();
     for out in ["one", "other"] {
-        trade(&folder, out, &["-q", "--tile", "0/9"]);
+        trade(&folder, out, &["-q", "--portion", "0/9"]);
     }
     // The same row may be measured twice, with different times.
-    trade(&folder, "both", &["-q", "--tile", "0/9"]);
+    trade(&folder, "both", &["-q", "--portion", "0/9"]);
     let table = folder.path("other/trade.csv");
     let text = fs::read_to_string(&table).unwrap();
     let last = text.lines().last().unwrap();
@@ -266,7 +277,14 @@ fn parts_of_a_table_that_disagree_are_refused() {
     let errors = folder.fails(
         2,
         &[
-            "trade", "lit.yaml", "-o", "o", "--tile", "0/2", "--parts", "one",
+            "trade",
+            "lit.yaml",
+            "-o",
+            "o",
+            "--portion",
+            "0/2",
+            "--parts",
+            "one",
         ],
     );
     assert!(errors.contains("cannot be used with"), "{errors}");

@@ -1,4 +1,5 @@
-//! Tests of `qrt render --tile` and `qrt merge`: the parts give the picture of one render, or an error.
+//! Tests of `qrt render --portion` and `qrt merge`: the parts give the picture of one render, or an
+//! error.
 
 use crate::common::command::Folder;
 use serde_json::Value;
@@ -25,9 +26,17 @@ fn accurate() -> String {
 fn parts(folder: &Folder, count: usize, options: &[&str]) -> Vec<String> {
     let names: Vec<String> = (0..count).map(|index| format!("part.{index}")).collect();
     for (index, name) in names.iter().enumerate() {
-        let tile = format!("{index}/{count}");
+        let portion = format!("{index}/{count}");
         let threads = (1 + index % 3).to_string();
-        let own = ["render", "box.yaml", "-q", "--tile", &tile, "-o", name];
+        let own = [
+            "render",
+            "box.yaml",
+            "-q",
+            "--portion",
+            &portion,
+            "-o",
+            name,
+        ];
         folder.works(&[&own[..], &["--threads", &threads], options].concat());
     }
     let mut shuffled: Vec<usize> = (0..count).collect();
@@ -142,9 +151,9 @@ fn parts_merge_to_the_files_of_one_render() {
 fn every_part_has_its_fraction_of_the_pixels() {
     let folder = Folder::with("box.yaml", BOX);
     for (index, pixels) in [36, 36, 36, 35].into_iter().enumerate() {
-        let tile = format!("{index}/4");
-        let said = folder.works(&["render", "box.yaml", "--tile", &tile, "-o", "part"]);
-        let expected = format!("part: part {tile} of the picture, {pixels} pixels, ");
+        let portion = format!("{index}/4");
+        let said = folder.works(&["render", "box.yaml", "--portion", &portion, "-o", "part"]);
+        let expected = format!("part: part {portion} of the picture, {pixels} pixels, ");
         assert!(said.starts_with(&expected), "{said}");
         let paths = format!(" {} paths in ", pixels << 10);
         assert!(said.contains(&paths), "{said}");
@@ -155,8 +164,8 @@ fn every_part_has_its_fraction_of_the_pixels() {
 fn parts_that_make_no_picture_are_named_and_nothing_is_written() {
     let folder = Folder::with("box.yaml", BOX);
     parts(&folder, 4, &[]);
-    let other = ["render", "box.yaml", "-q", "--tile"];
-    for (tile, name, options) in [
+    let other = ["render", "box.yaml", "-q", "--portion"];
+    for (portion, name, options) in [
         ("1/4", "seed", &["--seed", "1"][..]),
         (
             "1/4",
@@ -167,7 +176,7 @@ fn parts_that_make_no_picture_are_named_and_nothing_is_written() {
         ("1/4", "crop", &["--crop", "0,0,13,10"]),
         ("1/5", "parts", &[]),
     ] {
-        folder.works(&[&other[..], &[tile, "-o", name], options].concat());
+        folder.works(&[&other[..], &[portion, "-o", name], options].concat());
     }
     folder.works(&["render", "box.yaml", "-q", "-o", "box.png"]);
     fs::write(folder.path("empty"), "").unwrap();
@@ -240,33 +249,42 @@ fn what_is_no_part_of_a_picture_is_not_rendered() {
     let folder = Folder::with("box.yaml", BOX);
     for (arguments, reason) in [
         (
-            "--tile 4/4 -o part",
+            "--portion 4/4 -o part",
             "there is no portion 4 of 4: they are 0/4 to 3/4",
         ),
-        ("--tile 0/0 -o part", "a picture is not cut into 0 portions"),
         (
-            "--tile 1 -o part",
+            "--portion 0/0 -o part",
+            "a picture is not cut into 0 portions",
+        ),
+        (
+            "--portion 1 -o part",
             "`1` is not K/N, such as 0/4 for the first of four",
         ),
-        ("--tile -1/4 -o part", "is not K/N"),
-        ("--tile 0/4294967296 -o part", "is not K/N"),
+        ("--portion -1/4 -o part", "is not K/N"),
+        ("--portion 0/4294967296 -o part", "is not K/N"),
         (
-            "--tile 0/144 -o part",
+            "--portion 0/144 -o part",
             "143 pixels can't be cut into 144 portions",
         ),
-        ("--tile 0/4", "--output"),
+        ("--portion 0/4", "--output"),
         (
-            "--tile 0/4 -o part.png",
+            "--portion 0/4 -o part.png",
             "and part 0/4 of one is none: give it another ending",
         ),
         (
-            "--tile 0/4 -o part.exr",
+            "--portion 0/4 -o part.exr",
             "and part 0/4 of one is none: give it another ending",
         ),
-        ("--tile 0/4 -o part --stats s.json", "cannot be used with"),
-        ("--tile 0/4 -o part --counts c.csv", "cannot be used with"),
-        ("--tile 0/4 -o part --exposure 1", "cannot be used with"),
-        ("--tile 0/4 -o box.yaml", "used for two different things"),
+        (
+            "--portion 0/4 -o part --stats s.json",
+            "cannot be used with",
+        ),
+        (
+            "--portion 0/4 -o part --counts c.csv",
+            "cannot be used with",
+        ),
+        ("--portion 0/4 -o part --exposure 1", "cannot be used with"),
+        ("--portion 0/4 -o box.yaml", "used for two different things"),
     ] {
         let arguments: Vec<&str> = ["render", "box.yaml"]
             .into_iter()
@@ -327,9 +345,9 @@ fn an_interrupted_part_goes_on() {
     let folder = Folder::with("box.yaml", BOX);
     let slow = ["--estimator", "exact", "--set", "sampling.path_bits=15"];
     folder.works(&[&["render", "box.yaml", "-q", "-o", "whole.exr"], &slow[..]].concat());
-    let tile = |index| ["render", "box.yaml", "-q", "--tile", index, "-o"];
-    let one = [&tile("1/2")[..], &["part.1"], &slow].concat();
-    folder.works(&[&tile("0/2")[..], &["part.0"], &slow].concat());
+    let portion = |index| ["render", "box.yaml", "-q", "--portion", index, "-o"];
+    let one = [&portion("1/2")[..], &["part.1"], &slow].concat();
+    folder.works(&[&portion("0/2")[..], &["part.0"], &slow].concat());
     let child = folder.started(&one);
     let partial = folder.path("part.1.qrt-partial");
     while fs::metadata(&partial).map_or(0, |found| found.len()) < 1024 {
@@ -345,9 +363,9 @@ fn an_interrupted_part_goes_on() {
     // Neither another part nor the whole picture resumes from it.
     let errors = folder.fails(
         2,
-        &[&tile("0/2")[..], &["part.1", "--resume"], &slow].concat(),
+        &[&portion("0/2")[..], &["part.1", "--resume"], &slow].concat(),
     );
-    assert!(errors.contains("tile: there 1/2, here 0/2"), "{errors}");
+    assert!(errors.contains("portion: there 1/2, here 0/2"), "{errors}");
     folder.works(&[&one[..], &["--resume"]].concat());
     assert!(!partial.exists());
     merged(

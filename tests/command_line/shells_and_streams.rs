@@ -111,7 +111,7 @@ fn set_reaches_any_name_in_quotation_marks() {
             "a key is missing here",
         ),
         ("materials.\"a.b\"", "an override is written key=value"),
-        ("materials.\"no.ne\".emitter.radiance=3", "no.ne"),
+        ("materials.\"no.ne\".emitter.radiance=-3", "no.ne"),
         ("\"", "this quotation mark is not closed"),
         ("\"\\", "this quotation mark is not closed"),
         ("a.\"b\\\"=3", "this quotation mark is not closed"),
@@ -164,7 +164,7 @@ fn counts_and_stats_go_to_standard_output_alone() {
     let stats: Value = serde_json::from_str(&stats).unwrap();
     let kept: Value = serde_json::from_slice(&folder.read("s.json")).unwrap();
     assert_eq!(stats["oracle_queries"], kept["oracle_queries"]);
-    folder.works(&["render", "box.yaml", "--tile", "0/1", "-o", "part"]);
+    folder.works(&["render", "box.yaml", "--portion", "0/1", "-o", "part"]);
     let merged = folder.works(&["merge", "part", "-o", "m.png", "--counts", "-"]);
     assert_eq!(merged.into_bytes(), folder.read("c.csv"));
     let errors = folder.fails(
@@ -246,7 +246,7 @@ fn a_folder_that_takes_no_files_is_named() {
 fn output_that_cannot_be_written_is_a_failure_of_every_command() {
     let folder = Folder::with("box.yaml", BOX);
     folder.works(&["render", "box.yaml", "-q", "-o", "p.png"]);
-    folder.works(&["render", "box.yaml", "-q", "-o", "part", "--tile", "0/1"]);
+    folder.works(&["render", "box.yaml", "-q", "-o", "part", "--portion", "0/1"]);
     for command in [
         "--help",
         "--version",
@@ -257,7 +257,7 @@ fn output_that_cannot_be_written_is_a_failure_of_every_command() {
         "render box.yaml",
         "render box.yaml -q --counts -",
         "render box.yaml -q --stats -",
-        "render box.yaml --tile 0/1 -o other",
+        "render box.yaml --portion 0/1 -o other",
         "merge part -o m.png",
         "inspect box.yaml",
         "inspect box.yaml --json",

@@ -1,7 +1,7 @@
 //! Tests of `qrt new`, `schema`, `completions`, and of properties of every command.
 
 use crate::common::command::Folder;
-use qrt::prelude::{Options, render};
+use qrt::prelude::{RenderOptions, render};
 use qrt::runtime::path_machines::Real;
 use qrt::runtime::sample::{prefix_means, radiance, spread};
 use qrt::runtime::workers::Workers;
@@ -44,6 +44,31 @@ fn a_new_scene_renders_and_says_its_name() {
     }
 }
 
+#[test]
+fn a_new_small_scene_is_simulated_by_the_command_that_it_names() {
+    let folder = Folder::new();
+    let said = folder.works(&["new", "first edge", "--small"]);
+    assert!(
+        said.contains("`qrt simulate --pixel 1,0 'first edge.yaml'`"),
+        "{said}"
+    );
+    let simulated = folder.works(&["simulate", "--pixel", "1,0", "first edge.yaml"]);
+    assert!(
+        simulated.starts_with("first edge: channel r of pixel 1,0"),
+        "{simulated}"
+    );
+    // Its first comment says how many qubits that takes.
+    let text = String::from_utf8(folder.read("first edge.yaml")).unwrap();
+    let qubits = simulated
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split_once(" qubits")
+        .unwrap()
+        .0;
+    assert!(text.contains(&format!("\n# {qubits} qubits.")), "{text}");
+}
+
 /// The error is too small to be seen: an RMSE of a fiftieth of the mean, against sixteen times the paths.
 #[test]
 fn the_first_picture_of_a_new_scene_is_one_to_show() {
@@ -51,7 +76,7 @@ fn the_first_picture_of_a_new_scene_is_one_to_show() {
     folder.works(&["new", "box"]);
     let scene = |sets: &[String]| qrt::prelude::load(&folder.path("box.yaml"), sets).unwrap();
     let scene = [&[][..], &["sampling.path_bits=12".to_owned()]].map(|sets| scene(sets).valid);
-    let shown = render(&scene[0], &Options::default()).unwrap().image;
+    let shown = render(&scene[0], &RenderOptions::default()).unwrap().image;
     let limit = Real::new(&scene[1], 1).unwrap();
     let pixels = spread([shown.width, shown.height], 256);
     let limit = prefix_means(&limit, &pixels, &[12], &Workers::default()).unwrap();

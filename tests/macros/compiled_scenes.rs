@@ -8,8 +8,8 @@
 
 use qrt::circuit::{Declaration, Type};
 use qrt::core::inspect::Inspection;
-use qrt::core::oracle::{Options as Compile, Oracle};
-use qrt::machines::InstructionSet;
+use qrt::core::oracle::{Oracle, OracleOptions, Oracles};
+use qrt::core::tracer::PixelClass;
 use qrt::prelude::*;
 use qrt::runtime::path_machines::{Finished, OracleMachine};
 use qrt::runtime::render::{Colour, Visibility};
@@ -129,7 +129,7 @@ fn whole<C: CompiledOracle>() -> Program {
 }
 
 fn is_the_scene<C: CompiledOracle>() {
-    let oracle = Oracle::rgb(C::scene(), Compile::default()).unwrap();
+    let oracle = Oracle::rgb(C::scene(), OracleOptions::default()).unwrap();
     assert!(C::program() == oracle.program, "another program");
     let compiled = C::oracle().unwrap();
     assert_eq!(compiled.channels, oracle.channels);
@@ -165,18 +165,10 @@ fn paths(machine: &OracleMachine, pixel: [u32; 2]) -> Vec<[[i64; 3]; 2]> {
     paths
 }
 
-/// Compares all paths of a pixel, as native code by each instruction set, with the fixed machine; and some
-/// of them one basis state at a time.
-fn computes_what_the_fixed_machine_does<C: NativeOracle>(pixel: [u32; 2]) {
+/// Compares paths of a pixel, one basis state at a time, with the fixed machine.
+fn computes_what_the_fixed_machine_does<C: CompiledOracle>(pixel: [u32; 2]) {
     let oracle: Arc<Oracle> = C::oracle().unwrap().into();
     let fixed = paths(&OracleMachine::fixed(oracle.clone(), 3, true), pixel);
-    for set in InstructionSet::available() {
-        let native = OracleMachine::native_on::<C>(set, oracle.clone(), 3, true);
-        assert!(
-            paths(&native, pixel) == fixed,
-            "{set:?} computes something else"
-        );
-    }
     let most = 1 << oracle.comparator_bits();
     let first = (1_u64 << oracle.points.path_bits()).saturating_sub(MOST);
     for (path, expected) in (first..).zip(&fixed).step_by(fixed.len().div_ceil(24)) {
@@ -197,7 +189,9 @@ macro_rules! scenes {
         fn $test() {
             is_the_scene::<$scene>();
             computes_what_the_fixed_machine_does::<$scene>($pixel);
-            let inspection = Inspection::new($scene::scene(), None, Compile::default()).unwrap();
+            let oracles = Oracles::new($scene::scene());
+            let class = PixelClass::default();
+            let inspection = Inspection::of_class(&oracles, None, class).unwrap();
             assert_eq!($scene::QUBITS, u64::from(inspection.qubits));
             assert_eq!($scene::TOFFOLI, inspection.total().toffoli);
         })*
@@ -342,10 +336,10 @@ fn a_scene_and_its_twin_are_one() {
     assert!(Twin::program() == Floor::program());
     assert_eq!(LitTwin::scene().scene(), Lit::scene().scene());
     assert!(LitTwin::program() == Lit::program());
-    let options = Options {
-        model: Model::Fixed,
+    let options = RenderOptions {
+        model: Some(Model::Fixed),
         crop: Some([16, 30, 32, 2]),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let [twin, floor] = [
         render_compiled::<Twin>(&options).unwrap(),
@@ -358,10 +352,10 @@ fn a_scene_and_its_twin_are_one() {
 #[test]
 fn pictures_are_those_of_the_scene() {
     for model in [Model::Fixed, Model::Gates] {
-        let options = |crop| Options {
-            model,
+        let options = |crop| RenderOptions {
+            model: Some(model),
             crop: Some(crop),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let floor = options([30, 30, 3, 2]);
         let compiled = render_compiled::<Floor>(&floor).unwrap();
@@ -369,7 +363,7 @@ fn pictures_are_those_of_the_scene() {
         assert_eq!(compiled.image.pixels, built.image.pixels);
         assert_eq!(compiled.good, built.good);
         // For pixels with sampled lamps, only one class is compiled: colours are the same, at another scale.
-        let lit = Options {
+        let lit = RenderOptions {
             estimator: Some(Estimator::Exact),
             ..options([0, 0, 8, 8])
         };
@@ -385,6 +379,47 @@ fn pictures_are_those_of_the_scene() {
     }
 }
 
+/// Options that name no model are those of the compiled circuit's model.
+#[test]
+fn a_compiled_circuit_runs_under_default_options() {
+    let corner = RenderOptions {
+        crop: Some([30, 30, 2, 1]),
+        ..RenderOptions::default()
+    };
+    let compiled = render_compiled::<Floor>(&corner).unwrap();
+    assert_eq!(compiled.model, Model::Fixed);
+    assert_eq!(render(Floor::scene(), &corner).unwrap().model, Model::Real);
+    assert_eq!(format!("{corner:?}").matches("crop: Some").count(), 1);
+}
+
+/// The types beside a scene's are not names of the author's module.
+#[test]
+fn names_beside_a_scene_are_free() {
+    qrt! {
+        scene Room {
+            camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+            film: 2 x 2,
+            material lamp: emitter { radiance: rgb(1, 0.5, 0) },
+            quad sky: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
+            sampling { path_bits: 2 },
+            depth primary { bits: (2, 2) },
+        }
+        scene RoomPath {
+            camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+            film: 1 x 1,
+            material lamp: emitter { radiance: rgb(1, 0.5, 0) },
+            quad sky: lamp { (-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0) },
+            sampling { path_bits: 2 },
+            depth primary { bits: (2, 2) },
+        }
+    }
+    struct RoomLayout;
+    struct RoomMaterials;
+    let _ = (RoomLayout, RoomMaterials);
+    assert_eq!((Room::FILM, RoomPath::FILM), ([2; 2], [1; 2]));
+    assert_eq!((Room::MATERIALS.lamp, RoomPath::FACES.sky), (1, 1));
+}
+
 /// A request that the compiled circuit cannot meet is refused, not replaced by another.
 #[test]
 fn what_a_compiled_circuit_does_not_do_is_refused() {
@@ -397,15 +432,15 @@ fn what_a_compiled_circuit_does_not_do_is_refused() {
             accuracy { error: 0.1, confidence: 0.9 },
         }
     }
-    let fixed = Options {
-        model: Model::Fixed,
-        ..Options::default()
+    let fixed = RenderOptions {
+        model: Some(Model::Fixed),
+        ..RenderOptions::default()
     };
-    let one_run = Options {
+    let one_run = RenderOptions {
         colour: Colour::OneRun,
         ..fixed.clone()
     };
-    let searched = Options {
+    let searched = RenderOptions {
         visibility: Visibility::Exhaustive,
         ..fixed.clone()
     };
@@ -413,7 +448,11 @@ fn what_a_compiled_circuit_does_not_do_is_refused() {
         RenderError::Compiled(error) => error,
         other => panic!("{other}"),
     };
-    let real = refused(render_compiled::<Floor>(&Options::default()));
+    let real = RenderOptions {
+        model: Some(Model::Real),
+        ..RenderOptions::default()
+    };
+    let real = refused(render_compiled::<Floor>(&real));
     assert_eq!(
         real.to_string(),
         "a compiled circuit is run by the models `fixed` and `gates`; `real` runs none: choose one \
@@ -433,7 +472,7 @@ fn what_a_compiled_circuit_does_not_do_is_refused() {
         CompiledError::Accuracy
     );
     // An estimator in the options replaces the scene's, as in `render`.
-    let sine = Options {
+    let sine = RenderOptions {
         estimator: Some(Estimator::Sine),
         crop: Some([30, 30, 2, 1]),
         ..fixed

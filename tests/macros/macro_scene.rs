@@ -61,20 +61,13 @@ budget: { qubits: 100000000 }
 "#;
 
 fn picture(scene: &ValidScene, name: &str) -> Vec<u8> {
-    let exact = Options {
+    let exact = RenderOptions {
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let rendered = render(scene, &exact).unwrap();
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let metadata = rendered.metadata().unwrap();
-    save(
-        &path,
-        &rendered.image,
-        &metadata,
-        Encoding::for_path(&path, None).unwrap(),
-    )
-    .unwrap();
+    rendered.save(&path).unwrap();
     std::fs::read(path).unwrap()
 }
 

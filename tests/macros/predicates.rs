@@ -7,7 +7,7 @@ use qrt::core::oracle::paths::{PathFormats, PathNumber, RayNumber};
 use qrt::counting::PhaseDistribution;
 use qrt::machines::statevector::counting_of;
 use qrt::prelude::*;
-use qrt::runtime::predicates::{Counted, PredicateRefusal, TracedPath};
+use qrt::runtime::predicates::{PredicateCount, PredicateRefusal, TracedPath};
 use qrt::runtime::render::{Colour, Visibility};
 use qrt::scene::Window;
 
@@ -29,6 +29,17 @@ qrt! {
         depth secondary { bits: (4, 4) },
         depth tertiary { bits: (4, 4) },
         comparator { bits: 4 },
+    }
+
+    /// A wall that no other test traces: its recordings are counted.
+    scene Alone<Fixed<2, 8>> {
+        camera: orthographic { eye: (0, 0, 2), target: (0, 0, 0), height: 1 },
+        film: 2 x 2,
+        material lamp: emitter { radiance: (1, 0.5, 0) },
+        quad sky: lamp { (0, -9, 0), (9, -9, 0), (9, 9, 0), (0, 9, 0) },
+        sampling { path_bits: 2 },
+        depth primary { bits: (2, 2) },
+        comparator { bits: 2 },
     }
 
     /// The same in millimetres and far from the origin, uncomputed early.
@@ -124,13 +135,13 @@ fn ends_well(
     good ^= (material != 0 && front) && (x > -0.5 || red > blue);
 }
 
-fn at(model: Model, crop: Option<[u32; 4]>) -> Options<'static> {
-    Options {
-        model,
+fn at(model: Model, crop: Option<[u32; 4]>) -> RenderOptions<'static> {
+    RenderOptions {
+        model: Some(model),
         crop,
         estimator: Some(Estimator::Exact),
         seed: 3,
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 
@@ -346,10 +357,10 @@ fn a_predicates_oracle_is_counted_by_the_whole_circuit() {
         right(m, &path.ray0.origin.x, &path.ray0.found, good);
     })
     .unwrap();
-    let oracle = predicate.oracle(Marks::Paths, qrt::core::oracle::Options::default());
+    let oracle = predicate.oracle(Marks::Paths, qrt::core::oracle::OracleOptions::default());
     let oracle = oracle.unwrap();
     for pixel in [[0, 0], [1, 0], [1, 1]] {
-        let options = Options {
+        let options = RenderOptions {
             seed: 1,
             ..at(Model::Gates, Some([pixel[0], pixel[1], 1, 1]))
         };
@@ -412,11 +423,11 @@ fn the_light_of_all_paths_is_the_picture_and_its_parts_add_up() {
 
 #[test]
 fn estimators_tell_a_fraction_an_interval_and_their_queries() {
-    let options = |estimator, crop| Options {
+    let options = |estimator, crop| RenderOptions {
         estimator: Some(estimator),
         ..at(Model::Fixed, crop)
     };
-    let count = |options: &Options<'_>| -> Counted {
+    let count = |options: &RenderOptions<'_>| -> PredicateCount {
         count_where::<Corner>(options, |m, path, good| {
             on::<RED, _>(m, &path.ray1.material, good);
         })
@@ -457,7 +468,7 @@ fn estimators_tell_a_fraction_an_interval_and_their_queries() {
 fn a_predicate_costs_what_it_reads_and_no_more() {
     let cost = |code: Code| {
         let predicate = Predicate::record::<Corner>(code).unwrap();
-        let options = qrt::core::oracle::Options::default();
+        let options = qrt::core::oracle::OracleOptions::default();
         let oracle = predicate.oracle(Marks::Paths, options).unwrap();
         let (cost, qubits) = oracle.cost(0);
         (cost.toffoli, qubits)
@@ -503,7 +514,7 @@ fn code_that_is_no_predicate_is_refused() {
 
 #[test]
 fn options_that_no_predicate_is_asked_with_are_refused() {
-    let ask = |options: Options<'_>| {
+    let ask = |options: RenderOptions<'_>| {
         let counted = count_where::<Corner>(&options, |_, _, _| {});
         let rendered = render_where::<Corner>(&options, |_, _, _| {});
         let [a, b] = [counted.unwrap_err(), rendered.unwrap_err()].map(|error| match error {
@@ -514,17 +525,17 @@ fn options_that_no_predicate_is_asked_with_are_refused() {
         a
     };
     let plain = || at(Model::Fixed, None);
-    let one_run = Options {
+    let one_run = RenderOptions {
         colour: Colour::OneRun,
         ..plain()
     };
     assert_eq!(ask(one_run), PredicateRefusal::OneRun);
-    let searched = Options {
+    let searched = RenderOptions {
         visibility: Visibility::Exhaustive,
         ..plain()
     };
     assert_eq!(ask(searched), PredicateRefusal::Visibility);
-    let kept = Options {
+    let kept = RenderOptions {
         checkpoint: Some("kept.qrt".into()),
         ..plain()
     };
@@ -536,4 +547,32 @@ fn options_that_no_predicate_is_asked_with_are_refused() {
         beyond.to_string(),
         "there is no path 32: a pixel has 2^5 paths, from 0 on"
     );
+}
+
+#[reversible]
+fn meets_something(found: &Bool, good: &mut Bool) {
+    good ^= found;
+}
+
+#[test]
+fn a_predicate_is_compiled_once() {
+    let mut expected = 0;
+    for (model, programs) in [(Model::Real, 0), (Model::Fixed, 1), (Model::Gates, 1)] {
+        let options = RenderOptions {
+            model: Some(model),
+            ..RenderOptions::default()
+        };
+        count_where::<Alone>(&options, |m, path, good| {
+            meets_something(m, &path.ray0.found, good);
+        })
+        .unwrap();
+        expected += programs;
+        assert_eq!(Alone::scene().recordings(), expected, "{model:?}");
+        render_where::<Alone>(&options, |m, path, good| {
+            meets_something(m, &path.ray0.found, good);
+        })
+        .unwrap();
+        expected += programs;
+        assert_eq!(Alone::scene().recordings(), expected, "{model:?}");
+    }
 }

@@ -93,6 +93,36 @@ fn double<const I: u32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<{ I + 1 }, 
     y += x << 1;
 }
 
+/// The same with the type that Rust finds by the registers.
+#[reversible]
+fn add_numbers<const I: i32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<I, F>) {
+    let mut twice: Fixed<{ I + 1 }, F> = 0;
+    within! { twice += x << 1; }
+    apply! { y += x; y -= wrapping(twice); }
+}
+
+#[reversible]
+fn without_constants(x: &Fixed<3, 2>, y: &mut Fixed<3, 2>) {
+    add_numbers(&x, &mut y);
+}
+
+#[reversible]
+fn without_constants_back(x: &Fixed<3, 2>, y: &mut Fixed<3, 2>) {
+    add_numbers_inverse(&x, &mut y);
+}
+
+#[test]
+fn bits_on_both_sides_of_the_point_are_inferred() {
+    let programs = [without_constants_program, without_constants_back_program];
+    check(programs, &all(&[5, 5]), |s| {
+        vec![s[0], (s[1] + 32 - s[0]) % 32]
+    });
+    assert_eq!(
+        without_constants_program(Style::InPlace),
+        add_numbers_program::<3, 2>(Style::InPlace)
+    );
+}
+
 #[test]
 fn bits_before_the_point_are_computed() {
     let program = double_program::<3, 2>(Style::InPlace);

@@ -112,6 +112,31 @@ fn random() -> impl FnMut() -> f64 {
     }
 }
 
+/// Spheres apart, overlapping and nested, some of them lamps, with a triangle between.
+#[test]
+fn over_spheres() {
+    let mut random = random();
+    let mut text = format!("{HEAD}\n");
+    for number in 0..90 {
+        let center = [random(), 0.6 + 0.6 * random(), random()];
+        let radius = 0.02 + 0.1 * random().abs();
+        let material = ["grey", "glass", "satin", "grey", "lamp"][number % 5];
+        writeln!(
+            text,
+            "  - sphere: {{ center: {center:?}, radius: {radius}, material: {material} }}"
+        )
+        .unwrap();
+    }
+    text.push_str(
+        "  - triangle: { vertices: [[-1, 0.2, 0.5], [1, 0.3, 1.5], [0, 1, 0.5]], material: satin }\n",
+    );
+    assert_same(&written(&text, &[]));
+    let depth = "{ bits: [6, 6], light: [6, 6] }";
+    let lit = format!("sampling.depths=[{{ bits: [6, 6] }}, {depth}, {depth}]");
+    assert_same(&written(&text, &[&lit]));
+    assert_same(&written(&text, &["sky={ horizon: 1, zenith: 2 }"]));
+}
+
 /// Directions of any length, almost or exactly along an axis, from near and from afar, alone or many: the
 /// boxes are of single precision, which holds few of these numbers.
 #[test]

@@ -9,11 +9,11 @@ const FURNACE: &str = include_str!("../scenes/furnace.yaml");
 /// e (1 + a + a^2).
 const COLOUR: [f64; 3] = [1.75, 0.65625, 0.0];
 
-fn with(estimator: Estimator, seed: u64) -> Options<'static> {
-    Options {
+fn with(estimator: Estimator, seed: u64) -> RenderOptions<'static> {
+    RenderOptions {
         seed,
         estimator: Some(estimator),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 
@@ -98,7 +98,7 @@ fn every_estimator_works() {
     for &estimator in Estimator::ALL {
         let name = format!("counting.estimator={estimator}");
         let scene = written(FURNACE, &[&name, "film={ width: 2, height: 2 }"]);
-        let rendered = render(&scene, &Options::default()).unwrap();
+        let rendered = render(&scene, &RenderOptions::default()).unwrap();
         assert_eq!(rendered.estimator, estimator);
         for pixel in &rendered.image.pixels {
             for (value, bound) in pixel.iter().zip(rendered.scales.greatest()) {
@@ -130,7 +130,7 @@ fn nothing_is_black_and_takes_no_queries() {
 #[test]
 fn nothing_is_black_to_any_accuracy() {
     let scene = written(NOTHING, &["accuracy={ error: 0.01, confidence: 0.9 }"]);
-    let rendered = render(&scene, &Options::default()).unwrap();
+    let rendered = render(&scene, &RenderOptions::default()).unwrap();
     assert_eq!(rendered.image.pixels, [[0.0; 3]; 6]);
     assert_eq!(rendered.total_queries(), 0);
     let plan = rendered.plan.unwrap();
@@ -152,20 +152,20 @@ fn a_single_pixel_of_a_single_path_is_that_path() {
 
 #[test]
 fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
-    let refused = |sets: &[&str], options: &Options<'_>, words: &str| {
+    let refused = |sets: &[&str], options: &RenderOptions<'_>, words: &str| {
         let error = render(&written(NOTHING, sets), options).unwrap_err();
         assert!(error.is_refusal(), "{error}");
         assert!(error.to_string().contains(words), "{error}");
     };
     let film = "film={ width: 65536, height: 65536 }";
-    let unlimited = Options {
+    let unlimited = RenderOptions {
         memory: Memory::new(Some(u64::MAX)),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     refused(&[film, "sampling.path_bits=52"], &unlimited, "2^64");
-    let little = Options {
+    let little = RenderOptions {
         memory: Memory::new(Some(1 << 30)),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     refused(&[film], &little, "would take about 447 GB of memory");
     for crop in [
@@ -175,9 +175,9 @@ fn what_cannot_be_rendered_is_refused_before_it_costs_anything() {
         [0, 1, 1, 2],
         [1, 0, u32::MAX, 1],
     ] {
-        let options = Options {
+        let options = RenderOptions {
             crop: Some(crop),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         refused(&[], &options, "crop");
     }

@@ -36,10 +36,10 @@ fn errors(scene: &str, estimator: Estimator, phase_bits: u32) -> Errors {
     ];
     let loaded = front::load(&path, &sets).unwrap();
     let rendered = |estimator| {
-        let options = Options {
-            model: Model::Fixed,
+        let options = RenderOptions {
+            model: Some(Model::Fixed),
             estimator: Some(estimator),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let counts: Vec<_> = render(&loaded.valid, &options).unwrap().counts().collect();
         counts.into_iter().filter(|count| count.scale > 0.0)

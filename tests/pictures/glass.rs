@@ -8,11 +8,11 @@ use qrt::runtime::path_machines::Real;
 use qrt::scene::front::parse;
 use std::fmt::Write as _;
 
-fn exact(model: Model) -> Options<'static> {
-    Options {
-        model,
+fn exact(model: Model) -> RenderOptions<'static> {
+    RenderOptions {
+        model: Some(model),
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 

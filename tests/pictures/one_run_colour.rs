@@ -3,8 +3,10 @@
 
 use crate::common::scene::written;
 use qrt::core::oracle::{self, Oracle, luminance};
+use qrt::runtime::Prepared;
+use qrt::runtime::memory::Memory;
 use qrt::runtime::path_machines::OracleMachine;
-use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
+use qrt::runtime::render::{Colour, Model, RenderOptions, Rendered, render};
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
 
@@ -33,12 +35,12 @@ fn picture(
     colour: Colour,
     seed: u64,
 ) -> Rendered {
-    let options = Options {
+    let options = RenderOptions {
         seed,
-        model,
+        model: Some(model),
         estimator: Some(estimator),
         colour,
-        ..Options::default()
+        ..RenderOptions::default()
     };
     render(scene, &options).unwrap()
 }
@@ -127,7 +129,7 @@ fn all_models_measure_the_same_paths() {
 #[test]
 fn the_luminance_is_that_of_the_colours() {
     let scene = written(LAMPS, &["precision.fraction=20"]);
-    let oracle = Oracle::rgb_and_luminance(&scene, oracle::Options::default()).unwrap();
+    let oracle = Oracle::rgb_and_luminance(&scene, oracle::OracleOptions::default()).unwrap();
     let scale = [0, 1, 2].map(|c| oracle.channels[c].scale);
     let whole = oracle.channels[3].scale;
     assert!((whole - luminance(&scale)).abs() < 1e-12);
@@ -158,24 +160,43 @@ fn one_run_takes_a_third_of_the_queries() {
         .map(|colour| picture(&scene, Model::Real, Estimator::Paper, colour, 0));
     assert_eq!(three.total_queries(), 3 * one.total_queries());
     let toffoli = |oracle: Oracle| oracle::call_cost(&[oracle]).toffoli;
-    let options = oracle::Options::default();
+    let options = oracle::OracleOptions::default();
     let red = toffoli(Oracle::new(&scene, 0, options).unwrap());
     let all = toffoli(Oracle::luminance(&scene, options).unwrap());
     assert!(all < 2 * red, "{all}, and red alone {red}");
 }
 
+/// A prepared scene serves renders with other options than those that it was prepared for.
+#[test]
+fn a_scene_prepared_for_three_runs_renders_with_one() {
+    let scene = written(LAMPS, &[]);
+    for model in [Model::Real, Model::Fixed] {
+        let options = RenderOptions {
+            model: Some(model),
+            estimator: Some(Estimator::Paper),
+            colour: Colour::OneRun,
+            ..RenderOptions::default()
+        };
+        let three = RenderOptions::default();
+        let prepared = Prepared::new(&scene, &three.planning(), Memory::default()).unwrap();
+        let (found, _) = prepared.render(&options).unwrap();
+        let expected = render(&scene, &options).unwrap();
+        assert_eq!(found.image.pixels, expected.image.pixels, "{model:?}");
+    }
+}
+
 #[test]
 fn what_measures_nothing_is_refused_and_nothing_is_black() {
     let lamps = written(LAMPS, &[]);
-    let options = Options {
+    let options = RenderOptions {
         estimator: Some(Estimator::Exact),
         colour: Colour::OneRun,
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let error = render(&lamps, &options).unwrap_err();
     assert!(error.is_refusal());
     assert!(error.to_string().contains("choose another estimator"));
-    let noisy = Options {
+    let noisy = RenderOptions {
         colour: Colour::ThreeRuns,
         noise: "readout=0.01".parse().unwrap(),
         ..options
@@ -207,10 +228,10 @@ fn as_many_pixels_are_grey_as_the_estimator_says() {
         Estimator::AdaptiveBayes,
     ] {
         let scene = written(LAMPS, &[film, "counting.phase_bits=9"]);
-        let options = Options {
+        let options = RenderOptions {
             estimator: Some(estimator),
             colour: Colour::OneRun,
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let expected = options.expected_grey(&scene).unwrap();
         let rendered = render(&scene, &options).unwrap();
@@ -228,6 +249,6 @@ fn as_many_pixels_are_grey_as_the_estimator_says() {
         warned += usize::from(expected > 0.1);
     }
     assert!(warned >= 1);
-    let each = Options::default();
+    let each = RenderOptions::default();
     assert_eq!(each.expected_grey(&written(LAMPS, &[])).unwrap(), 0.0);
 }

@@ -30,11 +30,11 @@ fn wrapped(settings: &Settings) -> Result<BoxedEstimator, EstimatorError> {
     Ok(Box::new(Wrapped(estimator(Estimator::Sine, settings)?)))
 }
 
-fn named(name: &str) -> Options<'_> {
-    Options {
+fn named(name: &str) -> RenderOptions<'_> {
+    RenderOptions {
         seed: 3,
         own_estimator: Some(OwnEstimator::new(name, &wrapped)),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 
@@ -43,16 +43,16 @@ fn one_that_wraps_a_known_one_renders_its_picture() {
     let scene = scene(&["film.width=5", "film.height=4"]);
     for colour in [Colour::ThreeRuns, Colour::OneRun] {
         for model in [Model::Real, Model::Fixed] {
-            let known = Options {
+            let known = RenderOptions {
                 colour,
-                model,
+                model: Some(model),
                 seed: 3,
                 estimator: Some(Estimator::Sine),
-                ..Options::default()
+                ..RenderOptions::default()
             };
-            let own = Options {
+            let own = RenderOptions {
                 colour,
-                model,
+                model: Some(model),
                 ..named("mine")
             };
             let before = RUNS.load(Ordering::Relaxed);
@@ -92,7 +92,7 @@ fn a_picture_is_gone_on_with_by_the_same_name_alone() {
             stop.store(true, Ordering::Relaxed);
         }
     };
-    let kept = |options: Options<'static>, resume| Options {
+    let kept = |options: RenderOptions<'static>, resume| RenderOptions {
         checkpoint: Some(checkpoint.0.clone()),
         tile: Some([4, 4]),
         resume,
@@ -105,16 +105,16 @@ fn a_picture_is_gone_on_with_by_the_same_name_alone() {
     };
     let interrupted = render(
         &scene,
-        &Options {
+        &RenderOptions {
             workers,
             ..kept(named("first"), false)
         },
     );
     assert!(matches!(interrupted, Err(RenderError::Interrupted { .. })));
-    let sine = Options {
+    let sine = RenderOptions {
         seed: 3,
         estimator: Some(Estimator::Sine),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     for other in [named("second"), sine.clone()] {
         let refused = render(&scene, &kept(other, true)).unwrap_err();
@@ -137,16 +137,16 @@ impl Drop for Checkpointed {
 #[test]
 fn what_cannot_be_done_with_one_is_refused() {
     let scene = scene(&["film.width=2", "film.height=2"]);
-    let refused = |options: &Options<'_>| render(&scene, options).unwrap_err().to_string();
+    let refused = |options: &RenderOptions<'_>| render(&scene, options).unwrap_err().to_string();
     for name in ["", "own name", "ä", &"n".repeat(65)] {
         assert!(
             refused(&named(name)).contains("is no name of an estimator"),
             "{name}"
         );
     }
-    let searched = Options {
+    let searched = RenderOptions {
         visibility: Visibility::Exhaustive,
-        model: Model::Fixed,
+        model: Some(Model::Fixed),
         ..named("mine")
     };
     assert!(refused(&searched).contains("find primary hits classically"));
@@ -165,9 +165,9 @@ fn what_cannot_be_done_with_one_is_refused() {
     assert!(error.is_refusal());
     let fails = |_: &Settings| Err(EstimatorError::Own("no estimator on Sundays"));
     let own = OwnEstimator::new("sunday", &fails);
-    let error = refused(&Options {
+    let error = refused(&RenderOptions {
         own_estimator: Some(own),
-        ..Options::default()
+        ..RenderOptions::default()
     });
     assert_eq!(error, "no estimator on Sundays");
 }

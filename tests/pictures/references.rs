@@ -171,6 +171,24 @@ fn floor_furnace_and_mesh_agree_by_lamps() {
 }
 
 #[test]
+fn spheres_under_a_sky_agree() {
+    agrees("marbles", 14, 0.01);
+    agrees("cut_spheres", 14, 0.01);
+    agrees("in_glass", 14, 0.01);
+}
+
+#[test]
+fn spheres_through_a_lens_agree() {
+    agrees("lensed", 14, 0.01);
+}
+
+#[test]
+fn lamps_that_are_spheres_agree() {
+    agrees("bulbs", 14, 0.1);
+    agrees_by_lamps("bulbs", 0.1);
+}
+
+#[test]
 fn the_furnace_is_exact_at_every_depth() {
     let (radiance, albedo) = ([1.0, 0.5, 0.25], [0.25, 0.5, 0.8]);
     for depth in 1..=16 {

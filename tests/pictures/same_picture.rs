@@ -21,11 +21,11 @@ fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>) {
     (pixels, rendered.queries.clone())
 }
 
-fn with(estimator: Estimator) -> Options<'static> {
-    Options {
+fn with(estimator: Estimator) -> RenderOptions<'static> {
+    RenderOptions {
         seed: 3,
         estimator: Some(estimator),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 
@@ -64,7 +64,7 @@ fn for_any_number_of_threads_and_any_tiles() {
             (8, Some([64, 64])),
             (2, Some([13, 1])),
         ] {
-            let options = Options {
+            let options = RenderOptions {
                 workers: threads(count),
                 tile,
                 ..with(estimator)
@@ -82,7 +82,7 @@ fn for_any_lanes() {
     for path_bits in ["sampling.path_bits=10", "sampling.path_bits=2"] {
         let scene = scene(&[path_bits]);
         for estimator in ESTIMATORS {
-            let scalar = Options {
+            let scalar = RenderOptions {
                 simd: Simd::Scalar,
                 ..with(estimator)
             };
@@ -97,11 +97,11 @@ fn for_any_lanes() {
 fn a_pixel_of_many_paths_is_shared_by_threads_and_is_still_their_mean() {
     let scene = scene(&["sampling.path_bits=19", "film={ width: 2, height: 1 }"]);
     for estimator in ESTIMATORS {
-        let one = Options {
+        let one = RenderOptions {
             workers: threads(1),
             ..with(estimator)
         };
-        let three = Options {
+        let three = RenderOptions {
             workers: threads(3),
             ..with(estimator)
         };
@@ -137,7 +137,7 @@ fn a_crop_is_a_part_of_the_whole() {
         let whole = render(&scene, &with(estimator)).unwrap();
         for crop in [[0, 0, 13, 11], [3, 2, 7, 5], [12, 10, 1, 1]] {
             let [x, y, width, height] = crop;
-            let options = Options {
+            let options = RenderOptions {
                 crop: Some(crop),
                 ..with(estimator)
             };
@@ -164,11 +164,11 @@ fn a_crop_is_a_part_of_the_whole() {
 /// Returns the error of a render that `cancel` stops, with its progress reported.
 fn stopped(
     scene: &ValidScene,
-    options: &Options<'_>,
+    options: &RenderOptions<'_>,
     cancel: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> RenderError {
-    let options = Options {
+    let options = RenderOptions {
         workers: Workers {
             cancel: Some(cancel),
             progress: Some(progress),
@@ -180,7 +180,7 @@ fn stopped(
 }
 
 /// Renders until `paths` more paths are traced; returns the number of pixels that were finished then.
-fn interrupt(scene: &ValidScene, options: &Options<'_>, paths: u64) -> u64 {
+fn interrupt(scene: &ValidScene, options: &RenderOptions<'_>, paths: u64) -> u64 {
     let cancel = AtomicBool::new(false);
     let traced = AtomicU64::new(0);
     let progress = |progress: Progress| {
@@ -210,7 +210,7 @@ fn interrupted_and_resumed_or_not() {
         for estimator in ESTIMATORS {
             let expected = bits(&render(&scene, &with(estimator)).unwrap());
             let partial = Partial::new(&format!("{name}-{estimator}"));
-            let options = Options {
+            let options = RenderOptions {
                 checkpoint: Some(partial.0.clone()),
                 resume: true,
                 tile: Some([2, 1]),
@@ -220,13 +220,13 @@ fn interrupted_and_resumed_or_not() {
             let first = interrupt(&scene, &options, paths);
             assert!(first > 0);
             // The render resumes, and can be interrupted again.
-            let two = Options {
+            let two = RenderOptions {
                 workers: threads(2),
                 ..options.clone()
             };
             let second = interrupt(&scene, &two, paths / 4);
             assert!(second >= first, "{first} pixels, then {second}");
-            let last = render(&scene, &Options { tile: None, ..two }).unwrap();
+            let last = render(&scene, &RenderOptions { tile: None, ..two }).unwrap();
             // Unfinished pixels have some more paths.
             let finished = second * (last.paths / last.queries.len() as u64);
             assert!(last.resumed_paths >= finished);
@@ -248,14 +248,14 @@ fn an_interruption_waits_for_no_pixel() {
                 later.fetch_add(paths, Ordering::SeqCst);
             }
         };
-        let options = Options {
-            model,
+        let options = RenderOptions {
+            model: Some(model),
             workers: Workers {
                 cancel: Some(&cancel),
                 progress: Some(&progress),
                 ..threads(2)
             },
-            ..Options::default()
+            ..RenderOptions::default()
         };
         let error = render(&scene, &options).unwrap_err();
         assert!(matches!(
@@ -270,26 +270,26 @@ fn an_interruption_waits_for_no_pixel() {
 #[test]
 fn an_interrupted_pixel_goes_on_within_itself() {
     let scene = scene(&["sampling.path_bits=21", "film={ width: 1, height: 1 }"]);
-    let one = Options {
+    let one = RenderOptions {
         colour: qrt::runtime::render::Colour::OneRun,
         ..with(Estimator::Sine)
     };
-    let fixed = Options {
-        model: Model::Fixed,
+    let fixed = RenderOptions {
+        model: Some(Model::Fixed),
         ..with(Estimator::Exact)
     };
     let all = [with(Estimator::Exact), with(Estimator::Sine), one, fixed];
     for (number, options) in all.into_iter().enumerate() {
         let expected = bits(&render(&scene, &options).unwrap());
         let partial = Partial::new(&format!("within-{number}"));
-        let options = Options {
+        let options = RenderOptions {
             checkpoint: Some(partial.0.clone()),
             resume: true,
             ..options
         };
         let mut kept = 0;
         for count in [1, 2, 3] {
-            let options = Options {
+            let options = RenderOptions {
                 workers: threads(count),
                 ..options.clone()
             };
@@ -321,13 +321,13 @@ fn an_interrupted_tile_goes_on_within_itself() {
         let bits_of_paths = format!("sampling.path_bits={path_bits}");
         let film = "film={ width: 8, height: 8 }";
         let scene = scene(&[&bits_of_paths, film, lights]);
-        let options = Options {
-            model,
+        let options = RenderOptions {
+            model: Some(model),
             ..with(estimator)
         };
         let expected = bits(&render(&scene, &options).unwrap());
         let partial = Partial::new(&format!("tile-{model:?}-{path_bits}"));
-        let options = Options {
+        let options = RenderOptions {
             checkpoint: Some(partial.0.clone()),
             resume: true,
             tile: Some([8, 8]),
@@ -348,7 +348,7 @@ fn an_interrupted_tile_goes_on_within_itself() {
                 traced.fetch_add(more, Ordering::SeqCst);
             }
         };
-        let others = Options {
+        let others = RenderOptions {
             tile: Some([3, 5]),
             workers: Workers {
                 progress: Some(&progress),
@@ -364,7 +364,7 @@ fn an_interrupted_tile_goes_on_within_itself() {
 }
 
 /// Returns the number of paths in a checkpoint.
-fn resumed(scene: &ValidScene, options: &Options<'_>) -> u64 {
+fn resumed(scene: &ValidScene, options: &RenderOptions<'_>) -> u64 {
     let cancel = AtomicBool::new(true);
     let found = AtomicU64::new(0);
     let progress = |progress: Progress| {
@@ -387,7 +387,7 @@ fn a_kill_takes_two_seconds_of_a_pixel_at_most() {
             traced.fetch_add(more, Ordering::SeqCst);
         }
     };
-    let options = Options {
+    let options = RenderOptions {
         checkpoint: Some(partial.0.clone()),
         resume: true,
         workers: Workers {
@@ -412,7 +412,7 @@ fn a_kill_takes_two_seconds_of_a_pixel_at_most() {
         std::fs::copy(&partial.0, &killed.0).unwrap();
         cancel.store(true, Ordering::SeqCst);
         assert!(rendering.join().unwrap().is_err());
-        let options = Options {
+        let options = RenderOptions {
             checkpoint: Some(killed.0.clone()),
             workers: threads(1),
             ..options.clone()
@@ -426,7 +426,7 @@ fn a_kill_takes_two_seconds_of_a_pixel_at_most() {
 fn what_is_finished_is_not_traced_again() {
     let scene = scene(&[]);
     let partial = Partial::new("finished");
-    let options = Options {
+    let options = RenderOptions {
         checkpoint: Some(partial.0.clone()),
         resume: true,
         ..with(Estimator::Sine)
@@ -434,7 +434,7 @@ fn what_is_finished_is_not_traced_again() {
     let first = render(&scene, &options).unwrap();
     assert_eq!(first.resumed_paths, 0);
     let again = |progress: Progress| assert!(matches!(progress, Progress::Started { .. }));
-    let again = Options {
+    let again = RenderOptions {
         workers: Workers {
             progress: Some(&again),
             ..options.workers
@@ -445,7 +445,7 @@ fn what_is_finished_is_not_traced_again() {
     assert_eq!(second.resumed_paths, second.paths);
     assert_eq!(bits(&first), bits(&second));
     // Unless the render is not to be resumed.
-    let anew = Options {
+    let anew = RenderOptions {
         resume: false,
         ..options
     };
@@ -456,21 +456,21 @@ fn what_is_finished_is_not_traced_again() {
 fn another_render_does_not_go_on_from_it() {
     let scene = scene(&[]);
     let partial = Partial::new("other");
-    let options = Options {
+    let options = RenderOptions {
         checkpoint: Some(partial.0.clone()),
         resume: true,
         ..with(Estimator::Exact)
     };
     render(&scene, &options).unwrap();
-    let seed = Options {
+    let seed = RenderOptions {
         seed: 4,
         ..options.clone()
     };
-    let estimator = Options {
+    let estimator = RenderOptions {
         estimator: Some(Estimator::Paper),
         ..options.clone()
     };
-    let crop = Options {
+    let crop = RenderOptions {
         crop: Some([0, 0, 2, 2]),
         ..options
     };
@@ -486,7 +486,7 @@ fn another_seed_is_another_picture() {
     let scene = scene(&[]);
     for estimator in ESTIMATORS {
         let one = render(&scene, &with(estimator)).unwrap();
-        let options = Options {
+        let options = RenderOptions {
             seed: 4,
             ..with(estimator)
         };

@@ -3,7 +3,7 @@
 
 use crate::common::scene::{from_file, written};
 use qrt::core::oracle::{MOST_FACES, NearestOracle};
-use qrt::runtime::render::{Model, Options, RenderError, Rendered, Visibility, render};
+use qrt::runtime::render::{Model, RenderError, RenderOptions, Rendered, Visibility, render};
 use qrt::runtime::search::Guess;
 use qrt::runtime::workers::Workers;
 use qrt::scene::Estimator;
@@ -11,13 +11,13 @@ use qrt::scene::front;
 use std::fmt::Write;
 use std::num::NonZeroUsize;
 
-fn options(model: Model, visibility: Visibility) -> Options<'static> {
-    Options {
+fn options(model: Model, visibility: Visibility) -> RenderOptions<'static> {
+    RenderOptions {
         seed: 3,
-        model,
+        model: Some(model),
         visibility,
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     }
 }
 
@@ -128,7 +128,7 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
     let plain = options(Model::Fixed, visibility);
     let whole = render(&room, &plain).unwrap();
     for (tile, threads) in [([1, 1], 1), ([5, 3], 3), ([13, 11], 2)] {
-        let cut = Options {
+        let cut = RenderOptions {
             tile: Some(tile),
             workers: Workers {
                 threads: NonZeroUsize::new(threads),
@@ -142,7 +142,7 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
             "{tile:?}"
         );
     }
-    let part = Options {
+    let part = RenderOptions {
         crop: Some([4, 5, 3, 2]),
         ..plain.clone()
     };
@@ -152,7 +152,7 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
         part.image.pixels[..3],
         whole.image.pixels[5 * 13 + 4..][..3]
     );
-    let other = Options { seed: 4, ..plain };
+    let other = RenderOptions { seed: 4, ..plain };
     assert_ne!(render(&room, &other).unwrap().queries, whole.queries);
 }
 
@@ -165,7 +165,7 @@ fn neighbouring_pixels_guess_for_each_other_however_the_film_is_cut() {
             failure: 1e-3,
             guess,
         };
-        let options = Options {
+        let options = RenderOptions {
             tile,
             crop,
             ..options(Model::Fixed, visibility)
@@ -198,7 +198,7 @@ fn neighbouring_pixels_guess_for_each_other_however_the_film_is_cut() {
 fn a_checkpoint_of_another_search_is_not_gone_on_from() {
     let blocks = from_file("tests/scenes/blocks.yaml", &["sampling.path_bits=2"]);
     let path = std::env::temp_dir().join(format!("qrt-searched-{}", std::process::id()));
-    let with = |visibility: Visibility| Options {
+    let with = |visibility: Visibility| RenderOptions {
         checkpoint: Some(path.clone()),
         resume: true,
         ..options(Model::Fixed, visibility)
@@ -224,14 +224,14 @@ fn a_checkpoint_of_another_search_is_not_gone_on_from() {
 #[test]
 fn what_cannot_be_searched_is_refused() {
     let blocks = from_file("tests/scenes/blocks.yaml", &[]);
-    let refused = |options: Options<'_>| {
+    let refused = |options: RenderOptions<'_>| {
         let error = render(&blocks, &options).unwrap_err();
         assert!(error.is_refusal());
         error.to_string()
     };
     let text = refused(options(Model::Real, Visibility::GROVER));
     assert!(text.contains("use `fixed` or `gates`"), "{text}");
-    let text = refused(Options {
+    let text = refused(RenderOptions {
         estimator: Some(Estimator::Sine),
         ..options(Model::Fixed, Visibility::Exhaustive)
     });

@@ -1,7 +1,7 @@
 //! Tests of `counting.error`: a channel stops once its interval is narrow enough.
 
 use crate::common::scene::written;
-use qrt::runtime::render::{Colour, Model, Options, Rendered, render};
+use qrt::runtime::render::{Colour, Model, RenderOptions, Rendered, render};
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
 
@@ -26,11 +26,11 @@ fn scene(error: f64) -> ValidScene {
 }
 
 fn counted(error: f64, estimator: Estimator, colour: Colour) -> Rendered {
-    let options = Options {
-        model: Model::Fixed,
+    let options = RenderOptions {
+        model: Some(Model::Fixed),
         estimator: Some(estimator),
         colour,
-        ..Options::default()
+        ..RenderOptions::default()
     };
     render(&scene(error), &options).unwrap()
 }

@@ -2,7 +2,7 @@
 
 use crate::common::scene::written;
 use qrt::counting::estimators::EstimatorError;
-use qrt::runtime::render::{Colour, Model, Options, RenderError, Rendered, render};
+use qrt::runtime::render::{Colour, Model, RenderError, RenderOptions, Rendered, render};
 use qrt::runtime::workers::Workers;
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
@@ -25,10 +25,10 @@ comparator: { bits: 8 }
 counting: { phase_bits: 10 }
 ";
 
-fn with<'a>(model: Model) -> Options<'a> {
-    Options {
-        model,
-        ..Options::default()
+fn with<'a>(model: Model) -> RenderOptions<'a> {
+    RenderOptions {
+        model: Some(model),
+        ..RenderOptions::default()
     }
 }
 
@@ -47,12 +47,12 @@ fn error(strata: &str, colour: Colour) -> f64 {
     let scene = scene(strata);
     let (mut sum, mut count) = (0.0, 0.0);
     for seed in 0..6 {
-        let exact = Options {
+        let exact = RenderOptions {
             seed,
             estimator: Some(Estimator::Exact),
             ..with(Model::Fixed)
         };
-        let counted = Options {
+        let counted = RenderOptions {
             seed,
             colour,
             ..with(Model::Fixed)
@@ -81,7 +81,7 @@ fn small_colours_are_counted_with_less_error() {
 fn one_run_gives_its_colours_by_strata_too() {
     let [one, four] = ["1", "4"].map(|s| error(s, Colour::OneRun));
     assert!(four < 1.1 * one, "{one:e}, {four:e}");
-    let options = Options {
+    let options = RenderOptions {
         colour: Colour::OneRun,
         ..with(Model::Real)
     };
@@ -111,17 +111,17 @@ fn the_same_strata_make_the_same_picture() {
     for strata in ["4", "auto"] {
         let scene = scene(strata);
         for colour in [Colour::ThreeRuns, Colour::OneRun] {
-            let fixed = Options {
+            let fixed = RenderOptions {
                 colour,
                 ..with(Model::Fixed)
             };
             let expected = bits(&render(&scene, &fixed).unwrap());
-            let gates = Options {
-                model: Model::Gates,
+            let gates = RenderOptions {
+                model: Some(Model::Gates),
                 ..fixed.clone()
             };
             assert_eq!(bits(&render(&scene, &gates).unwrap()), expected);
-            let threads = Options {
+            let threads = RenderOptions {
                 workers: Workers {
                     threads: NonZero::new(1),
                     ..Workers::default()
@@ -132,7 +132,7 @@ fn the_same_strata_make_the_same_picture() {
             assert_eq!(bits(&render(&scene, &threads).unwrap()), expected);
             let name = format!("qrt-strata-{}-{strata}", std::process::id());
             let checkpoint = std::env::temp_dir().join(name);
-            let kept = Options {
+            let kept = RenderOptions {
                 checkpoint: Some(checkpoint.clone()),
                 resume: true,
                 ..fixed
@@ -164,7 +164,7 @@ fn auto_changes_only_what_is_counted_by_strata() {
 fn estimators_that_count_the_whole_at_once_refuse_strata() {
     let scene = scene("4");
     for estimator in Estimator::ALL.iter().copied() {
-        let options = Options {
+        let options = RenderOptions {
             estimator: Some(estimator),
             crop: Some([0, 0, 1, 1]),
             ..with(Model::Real)

@@ -102,10 +102,10 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks. The first two occur only in scenes built in Rust, the third
 /// only for a file of 256 MiB, the fourth only for millions of faces, the fifth only if the OBJ library disagrees
-/// with the checks before it, the next ones only when the scene's circuit is compiled, then five as warnings, and
-/// the last when the scene is exported. The unit tests of `valid`, of the OBJ reader and of `oracle`,
+/// with the checks before it, the next ones only when the scene's circuit is compiled, then nine as warnings or in a build
+/// without glTF, and the last when the scene is exported. The unit tests of `valid`, of the OBJ reader and of `oracle`,
 /// `inspect_command` and the test below show them.
-const ELSEWHERE: [&str; 16] = [
+const ELSEWHERE: [&str; 22] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -116,11 +116,17 @@ const ELSEWHERE: [&str; 16] = [
     codes::QUOTIENT_UNBOUNDED,
     codes::NUMBER_TOO_WIDE,
     codes::TOO_MANY_FACES,
+    codes::SPHERE_IN_TABLE,
+    codes::SMALL_SPHERE,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
     codes::UNUSED_MATERIAL,
     codes::BLACK,
     codes::OPPOSITE_LAMP,
+    codes::OBJ_COPY,
+    codes::MTL_LEFT_OUT,
+    codes::GLTF_FEATURE,
+    codes::GLTF_POSE,
     codes::NO_COUNTERPART,
 ];
 
@@ -152,6 +158,40 @@ sampling: {{ depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8], light: [8, 8] }}] }}
         &mirrors,
     )
     .unwrap();
+}
+
+/// Meshes are read without faces that have no area, copies, and statements without a counterpart.
+#[test]
+fn what_a_mesh_leaves_out_is_warned_of() {
+    let text = "name: left-out
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+materials: { white: { lambertian: { albedo: [1, 1, 1] } } }
+geometry:
+  - mesh: { obj: room.obj }
+  - mesh: { gltf: figure.gltf, material: white }
+";
+    let obj =
+        b"mtllib room.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 3 1\n\
+                f 1 2 2\nl 1 2\nusemtl wall\nf 2 4 3\n";
+    let mtl =
+        b"newmtl lamp\nKe 4 4 4\nnewmtl wall\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nNs 250\nbump a.png\n";
+    // One triangle: the points (0, 0, 0), (1, 0, 0) and (0, 1, 0).
+    let gltf = br#"{
+      "asset": { "version": "2.0" }, "nodes": [{ "mesh": 0, "skin": 0 }], "skins": [{ "joints": [0] }],
+      "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+      "accessors": [{
+        "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]
+      }],
+      "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+      "buffers": [{ "byteLength": 36, "uri":
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }]
+    }"#;
+    let files: &[(&str, &[u8])] = &[("room.obj", obj), ("room.mtl", mtl), ("figure.gltf", gltf)];
+    let loaded = front::parse_with(text, "left-out.yaml", &[], front::Files::held(files)).unwrap();
+    assert_eq!(loaded.valid.polygons().len(), 3);
+    let shown = loaded.warnings().unwrap().render(false);
+    compare(&Path::new(FOLDER).join("mesh-left-out.yaml"), &shown).unwrap();
 }
 
 /// A scene with a material that is darker in one direction than in the other is rendered as written.

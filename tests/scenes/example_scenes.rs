@@ -56,6 +56,7 @@ fn every_scene_shows_something() {
         "knot",
         "lit-box",
         "velvet",
+        "weekend",
     ];
     assert_eq!(names, expected);
     for name in expected {

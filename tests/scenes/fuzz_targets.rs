@@ -83,6 +83,17 @@ fn meshes() {
 }
 
 #[test]
+fn other_meshes() {
+    let seeds = |end: &'static str, first: u8| {
+        let files = corpus(&["tests/bad_scenes/meshes", "tests/good_scenes"], &[end]);
+        let seed = move |file: Vec<u8>| [&[first], &file[..]].concat();
+        files.into_iter().map(seed)
+    };
+    let seeds: Vec<Vec<u8>> = seeds("ply", 0).chain(seeds("gltf", 1)).collect();
+    tried(targets::other_mesh, &seeds, 2000);
+}
+
+#[test]
 fn expressions() {
     let seeds = corpus(&["fuzz/seeds/expression"], &["txt"]);
     tried(targets::expression, &seeds, 2000);
@@ -124,6 +135,11 @@ fn part(x: u8, number: u8) -> Vec<u8> {
     [&place[..], &number, &[3; 8], &[1, 0, 0, 0], &[9; 8]].concat()
 }
 
+/// Returns the last record of a part of a picture, with a text and an empty scene as properties.
+fn ending() -> Vec<u8> {
+    [&[2, 0, 0, 0, 6, 0, 0, 0][..], &[4], b"hash", &[0]].concat()
+}
+
 #[test]
 fn checkpoints() {
     let both = [
@@ -134,7 +150,7 @@ fn checkpoints() {
         part(1, 1),
         part(2, 3),
     ];
-    let seeds = [tile(2, 1), part(1, 4), both.join(&255)];
+    let seeds = [tile(2, 1), part(1, 4), both.join(&255), ending()];
     let seeds = seeds.map(|seed| [&[0][..], &seed].concat());
     tried(targets::checkpoint, &seeds, 1000);
 }

@@ -207,6 +207,31 @@ fn fingerprints_see_meshes() {
     );
 }
 
+#[test]
+fn a_mesh_is_the_same_in_every_format() {
+    let scene = std::fs::read_to_string("tests/good_scenes/least.yaml").unwrap();
+    let materials = "materials: { m: { mirror: { reflectance: [1, 1, 1] } } }";
+    let scene = scene.replace("materials: {}", materials);
+    let mesh = |file: &str| {
+        let mesh = format!("geometry: [{{ mesh: {{ {file} }} }}]");
+        read(
+            &scene.replace("geometry: []", &mesh),
+            "tests/good_scenes".as_ref(),
+        )
+    };
+    let expected = mesh("obj: tetrahedron.obj, material: m");
+    assert_eq!(expected.polygons().len(), 4);
+    for file in ["ply: tetrahedron.ply", "gltf: tetrahedron.gltf"] {
+        let found = mesh(&format!("{file}, material: m"));
+        assert_eq!(found.polygons(), expected.polygons(), "{file}");
+    }
+    // With its own material it is another picture, and another fingerprint.
+    let gold = mesh("gltf: tetrahedron.gltf");
+    assert_eq!(gold.surfaces()[1].name, "tetrahedron.gltf:gold");
+    let satin = mesh("gltf: tetrahedron.gltf, material: m");
+    assert_ne!(gold.fingerprint(), satin.fingerprint());
+}
+
 /// Generates scenes as a program may build them: any text, any finite number.
 fn scenes() -> impl Strategy<Value = Scene> {
     let text = "\\PC{1,12}";

@@ -34,7 +34,9 @@ impl Judge {
 }
 
 /// Codes of errors that relate values to each other, or concern files: a schema cannot express them.
-const RELATIONS: [&str; 20] = [
+const RELATIONS: [&str; 22] = [
+    codes::SKY,
+    codes::NO_LENS,
     codes::PRIMARY_LIGHT,
     codes::FEW_LIGHT_BITS,
     codes::LIGHT_UNBOUNDED,
@@ -59,7 +61,7 @@ const RELATIONS: [&str; 20] = [
 
 fn is_relation(code: &str) -> bool {
     // The contents of meshes, expressions and BSDFs decide, not the structure.
-    let of_contents = ["QRT032", "QRT033", "QRT034", "QRT04"];
+    let of_contents = ["QRT032", "QRT033", "QRT034", "QRT035", "QRT04"];
     RELATIONS.contains(&code) || of_contents.iter().any(|start| code.starts_with(start))
 }
 

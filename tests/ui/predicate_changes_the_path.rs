@@ -21,7 +21,7 @@ fn forget(face: &mut UInt<2>, good: &mut Bool) {
 }
 
 fn main() {
-    let _ = count_where::<Room>(&Options::default(), |m, path, good| {
+    let _ = count_where::<Room>(&RenderOptions::default(), |m, path, good| {
         forget(m, &path.ray1.face, good);
     });
 }

@@ -16,7 +16,7 @@ qrt! {
 
 fn main() {
     // Under next-event estimation a point on a lamp takes the last ray's place.
-    let _ = count_where::<Room>(&Options::default(), |_, path, _| {
+    let _ = count_where::<Room>(&RenderOptions::default(), |_, path, _| {
         let _ = &path.ray1;
     });
 }

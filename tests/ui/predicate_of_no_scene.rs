@@ -3,5 +3,5 @@ use qrt::prelude::*;
 struct Room;
 
 fn main() {
-    let _ = count_where::<Room>(&Options::default(), |_, _, _| {});
+    let _ = count_where::<Room>(&RenderOptions::default(), |_, _, _| {});
 }

@@ -20,7 +20,7 @@ fn ends(found: &Bool, good: &mut Bool) {
 }
 
 fn main() {
-    let _ = count_where::<Room>(&Options::default(), |m, path, good| {
+    let _ = count_where::<Room>(&RenderOptions::default(), |m, path, good| {
         ends(m, &path.ray2.found, good);
     });
 }

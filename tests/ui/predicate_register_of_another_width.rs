@@ -20,7 +20,7 @@ fn third(face: &UInt<3>, good: &mut Bool) {
 }
 
 fn main() {
-    let _ = count_where::<Room>(&Options::default(), |m, path, good| {
+    let _ = count_where::<Room>(&RenderOptions::default(), |m, path, good| {
         third(m, &path.ray1.face, good);
     });
 }

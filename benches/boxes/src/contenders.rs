@@ -10,7 +10,7 @@ use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::rt_triangle::RtTriangle;
-use qrt::core::tracer::{Geometry, NO_FACE};
+use qrt::core::tracer::{NO_FACE, StageGeometry};
 use qrt::runtime::path_machines::SingleRay;
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ pub struct Triangle {
 
 impl Triangle {
     /// Returns all triangles of `geometry`.
-    pub fn all(geometry: &Geometry) -> Vec<Self> {
+    pub fn all(geometry: &StageGeometry) -> Vec<Self> {
         let mut triangles = Vec::new();
         for (label, corners) in geometry.corners.iter().enumerate() {
             let at = |i: usize| Vector3::from(corners[i].to_array());

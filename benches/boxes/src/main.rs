@@ -5,7 +5,6 @@
 //! triangle is ours. It fails where a crate is faster.
 
 #![forbid(unsafe_code)]
-
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 

@@ -1,11 +1,11 @@
 //! Rays of a scene's paths, one path at a time, in plain numbers.
 
+use qrt::core::tracer::trace;
+use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, NearestSearch, Ray, Sampled, Start};
+use qrt::runtime::path_machines::{Real, SingleRay};
 use qrt::scene::expr::Function;
 use qrt::scene::sampling::{PathPoints, cell_centre};
-use qrt::core::tracer::trace;
-use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, Nearest, Ray, Sampled, Start};
 use qrt::scene::valid::ValidScene;
-use qrt::runtime::path_machines::{Real, SingleRay};
 use std::cell::RefCell;
 
 /// Rays in the order of the paths.
@@ -43,7 +43,7 @@ struct Recorder<'a> {
     rays: RefCell<Rays>,
 }
 
-impl<'p> Nearest<Path<'p>> for Recorder<'_> {
+impl<'p> NearestSearch<Path<'p>> for Recorder<'_> {
     fn nearest(&self, cx: &mut Path<'p>, ray: &Ray<Path<'p>>, wanted: bool) -> Hit<Path<'p>> {
         if !wanted {
             return Hit::new(cx, f64::MAX, NO_FACE, wanted);

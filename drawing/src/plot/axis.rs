@@ -11,14 +11,14 @@ pub enum Scale {
 
 /// An axis of a plot: its label and its scale.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct PlotAxis {
     /// The label: the quantity that the axis measures.
     pub label: String,
     /// The map from values to places on the axis.
     pub scale: Scale,
 }
 
-impl Axis {
+impl PlotAxis {
     /// Creates an axis of decades.
     pub fn log(label: &str) -> Self {
         Self {

@@ -2,7 +2,7 @@
 //! telephone shows 580 units at a scale of about 0.75, a page at 1.
 
 use super::labels::apart;
-use super::{Axis, Drawn, Fit, Plot, Series};
+use super::{Drawn, Fit, Plot, PlotAxis, Series};
 use crate::canvas::{Canvas, number, polyline};
 use crate::palette::{hollow, mark, series as class};
 use crate::panel::{Panel, minus};
@@ -194,7 +194,7 @@ impl Drawing<'_> {
 }
 
 /// Converts a base-10 logarithm back to a place.
-fn unlogarithm(axis: &Axis, logarithm: f64) -> f64 {
+fn unlogarithm(axis: &PlotAxis, logarithm: f64) -> f64 {
     logarithm / axis.logarithm(1.0)
 }
 

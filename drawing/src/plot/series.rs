@@ -1,6 +1,6 @@
 //! The series of points that a plot draws.
 
-use super::{Axis, Fit};
+use super::{Fit, PlotAxis};
 
 /// A point, with the ends of its error bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl Series {
 
     /// Returns the points that have a place on the axes: (x, y, low, high) as places. An end of an
     /// error bar that has no place is put at the point.
-    pub(super) fn places(&self, x: &Axis, y: &Axis) -> Vec<[f64; 4]> {
+    pub(super) fn places(&self, x: &PlotAxis, y: &PlotAxis) -> Vec<[f64; 4]> {
         let place = |point: &Point| {
             let at = y.place(point.y)?;
             let end = |value| y.place(value).unwrap_or(at);
@@ -76,7 +76,7 @@ impl Series {
     }
 
     /// Fits the power law, if `drawn` is [`Drawn::Fit`] and there are enough points.
-    pub(super) fn fit(&self, x: &Axis, y: &Axis) -> Option<Fit> {
+    pub(super) fn fit(&self, x: &PlotAxis, y: &PlotAxis) -> Option<Fit> {
         let places = self.places(x, y);
         let logarithms = places
             .iter()

@@ -6,8 +6,8 @@ use crate::STYLES;
 fn plot(series: Vec<Series>) -> Plot {
     Plot {
         title: "Error & <price>".to_owned(),
-        x: Axis::log("queries"),
-        y: Axis::log("error"),
+        x: PlotAxis::log("queries"),
+        y: PlotAxis::log("error"),
         series,
     }
 }
@@ -35,7 +35,7 @@ fn a_slope_over_bits_is_over_their_power_of_two() {
         (2..9).map(|b| (f64::from(b), 0.5f64.powi(b))),
         Drawn::Fit,
     )]);
-    plot.x = Axis::bits("comparator bits");
+    plot.x = PlotAxis::bits("comparator bits");
     let svg = plot.draw().svg();
     assert!(svg.contains("slope \u{2212}1.00"), "{svg}");
     for bits in 2..9 {
@@ -92,7 +92,7 @@ fn every_number_lies_on_the_drawing() {
 
 #[test]
 fn ticks_are_numbers_that_people_write() {
-    let axis = Axis::log("x");
+    let axis = PlotAxis::log("x");
     let labels = |low, high| -> Vec<String> {
         let ticks = axis.ticks([low, high], 9).into_iter();
         ticks.map(|(_, label)| label).collect()

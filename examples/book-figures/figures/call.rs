@@ -4,8 +4,8 @@
 //! `#s5` it shows the state after the fifth stage. A script of the book goes through the steps.
 
 use super::{Body, Figure, scene};
-use qrt::core::inspect::{Frame, Inspection, Part, grouped};
-use qrt::core::oracle::{Options, Oracle};
+use qrt::core::inspect::{CallDiagram, CallPart, grouped};
+use qrt::core::oracle::{Oracle, OracleOptions};
 use qrt::drawing::{Canvas, minus};
 use qrt::runtime::path_machines::OracleMachine;
 use std::fmt::Write as _;
@@ -22,7 +22,7 @@ const CELL: [f64; 2] = [25.0, 24.0];
 /// Returns the number of thresholds that each path exceeds.
 fn counts() -> Vec<i64> {
     let scene = scene(include_str!("../../lit-wall.yaml"), "lit-wall.yaml");
-    let oracle = Arc::new(Oracle::rgb(&scene, Options::default()).expect("an oracle"));
+    let oracle = Arc::new(Oracle::rgb(&scene, OracleOptions::default()).expect("an oracle"));
     let machine = OracleMachine::fixed(oracle, SEED, true);
     let mut counts = Vec::new();
     let traced = machine.trace(&[PIXEL], 0..machine.paths(), |paths| {
@@ -46,8 +46,8 @@ fn class(name: &str) -> &'static str {
 
 pub(super) fn animated() -> Figure {
     let scene = scene(include_str!("../../lit-wall.yaml"), "lit-wall.yaml");
-    let inspection = Inspection::new(&scene, None, Options::default()).expect("a circuit");
-    let frame = Frame::new(&inspection);
+    let inspection = super::circuits::inspected(&scene);
+    let frame = CallDiagram::new(&inspection);
     let stages = inspection.stages();
     let counts = counts();
     let good: i64 = counts.iter().sum();
@@ -59,13 +59,13 @@ pub(super) fn animated() -> Figure {
         bottom + 150.0,
     );
     let column = |k: usize| LEFT + CELL[0] * k as f64;
-    for part in Part::ALL {
-        let of = |b: &&qrt::core::inspect::FrameBox| b.part == part;
+    for part in CallPart::ALL {
+        let of = |b: &&qrt::core::inspect::DiagramBox| b.part == part;
         let first = frame.boxes.iter().position(|b| b.part == part).unwrap_or(0);
         let count = frame.boxes.iter().filter(of).count();
         let width = CELL[0] * count as f64;
         canvas.rectangle("stage", [column(first) + 1.0, 40.0, width - 2.0, 20.0]);
-        let name = if part == Part::Flip {
+        let name = if part == CallPart::Flip {
             "flip"
         } else {
             part.name()
@@ -133,7 +133,7 @@ pub(super) fn animated() -> Figure {
     let flip = frame
         .boxes
         .iter()
-        .position(|b| b.part == Part::Flip && b.writes.is_empty());
+        .position(|b| b.part == CallPart::Flip && b.writes.is_empty());
     let flip = flip.unwrap_or(boxes / 2) + 1;
     let (left, top, side) = (LEFT, bottom + 40.0, 12.0);
     for (path, count) in counts.iter().enumerate() {

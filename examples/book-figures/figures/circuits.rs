@@ -6,10 +6,11 @@ mod scenes;
 use super::{Figure, cornell, scene};
 use qrt::circuit::lower;
 use qrt::core::compile::Role;
-use qrt::core::inspect::{Inspection, Part, grouped};
-use qrt::core::oracle::{Options, Oracle};
-use qrt::drawing::{Axis, Canvas, Drawn, Plot, Series};
-use qrt::runtime::draw;
+use qrt::core::inspect::{CallPart, Inspection, grouped};
+use qrt::core::oracle::{Oracle, OracleOptions, Oracles};
+use qrt::core::tracer::PixelClass;
+use qrt::drawing::{Canvas, Drawn, Plot, PlotAxis, Series};
+use qrt::lab::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
@@ -17,8 +18,9 @@ use qrt::scene::valid::ValidScene;
 /// A lamp in front of a wall: a circuit small enough to be seen whole.
 const WALL: &str = include_str!("../../lit-wall.yaml");
 
-fn inspected(scene: &ValidScene) -> Inspection {
-    Inspection::new(scene, None, Options::default()).expect("the scene has a circuit")
+pub(super) fn inspected(scene: &ValidScene) -> Inspection {
+    let oracles = Oracles::new(scene);
+    Inspection::of_class(&oracles, None, PixelClass::default()).expect("the scene has a circuit")
 }
 
 fn figures(inspection: &Inspection) -> String {
@@ -118,7 +120,7 @@ pub(super) fn registers() -> Figure {
         let qubits = grouped(held.qubits);
         canvas.text("small soft end", [left - 8.0, y + 13.0], &qubits);
     }
-    let flip = inspection.instructions(Part::Flip);
+    let flip = inspection.instructions(CallPart::Flip);
     let middle = f64::midpoint(x(flip.start), x(flip.end));
     canvas.line("wire", [middle, 60.0], [middle, bottom + 4.0]);
     canvas.text("small mid", [middle, bottom + 18.0], "flip");
@@ -159,7 +161,7 @@ fn class(role: Role) -> &'static str {
 
 /// Returns the Toffolis of one call, first channel.
 fn toffolis(scene: &ValidScene) -> f64 {
-    let oracle = Oracle::new(scene, 0, Options::default()).expect("the scene has a circuit");
+    let oracle = Oracle::new(scene, 0, OracleOptions::default()).expect("the scene has a circuit");
     let costs = lower::tally(&oracle.whole(0));
     costs.iter().map(|cost| cost.toffoli as f64).sum()
 }
@@ -196,8 +198,8 @@ pub(super) fn growth() -> Figure {
     series.push(Series::new("rays D to 8", few.to_vec(), Drawn::Joined));
     let plot = Plot {
         title: "Toffolis of one oracle call, and how they grow".to_owned(),
-        x: Axis::log("quads P, rays D or fraction bits w"),
-        y: Axis::log("Toffolis of one call"),
+        x: PlotAxis::log("quads P, rays D or fraction bits w"),
+        y: PlotAxis::log("Toffolis of one call"),
         series,
     };
     let says = format!(
@@ -225,10 +227,10 @@ pub(super) fn width() -> Figure {
             "comparator.bits=20",
             &format!("precision.fraction={fraction}"),
         ]);
-        let options = render::Options {
-            model,
+        let options = render::RenderOptions {
+            model: Some(model),
             estimator: Some(Estimator::Exact),
-            ..render::Options::default()
+            ..render::RenderOptions::default()
         };
         render::render(&scene, &options).expect("a picture")
     };
@@ -255,8 +257,8 @@ pub(super) fn width() -> Figure {
     );
     let plot = Plot {
         title: "Error of the circuit's numbers, Cornell box".to_owned(),
-        x: Axis::bits("fraction bits"),
-        y: Axis::log("RMSE to real over the mean"),
+        x: PlotAxis::bits("fraction bits"),
+        y: PlotAxis::log("RMSE to real over the mean"),
         series: vec![Series::new("fixed to real", points, Drawn::Fit)],
     };
     Figure::drawn(plot.draw(), says)

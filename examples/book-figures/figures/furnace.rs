@@ -2,7 +2,7 @@
 
 use super::{Figure, root};
 use qrt::drawing::{Canvas, Panel, ticks};
-use qrt::runtime::render::{Model, Options, render};
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front;
 
@@ -21,10 +21,10 @@ fn pixel(depth: i32) -> [f64; 3] {
     ];
     let loaded = front::load(&root().join("scenes-yaml/furnace.yaml"), &sets);
     let scene = loaded.unwrap_or_else(|report| panic!("{report}")).valid;
-    let options = Options {
-        model: Model::Fixed,
+    let options = RenderOptions {
+        model: Some(Model::Fixed),
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     render(&scene, &options).expect("a picture").image.pixels[0]
 }

@@ -2,9 +2,11 @@
 
 use super::Figure;
 use qrt::circuit::quantum::QuantumGate::{self, Ccx, Cx, H, Phase, X};
-use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, Turns, Window};
+use qrt::circuit::quantum::{
+    CircuitPart, CountingCircuit, GroverIterate, PhaseOracle, Turns, Window,
+};
+use qrt::lab::draw::Wires;
 use qrt::machines::statevector::{Dense, StateVector, StateVectorError};
-use qrt::runtime::draw::Wires;
 
 /// Returns the real amplitudes of a register after `gates`.
 fn amplitudes(qubits: u32, gates: &[QuantumGate<'_>]) -> Result<Vec<f64>, StateVectorError> {
@@ -211,7 +213,7 @@ pub(super) fn iterate() -> Figure {
 pub(super) fn counting() -> Figure {
     const BITS: u32 = 3;
     let oracle = PhaseOracle::polynomial(3, vec![vec![0, 2]]).expect("an oracle");
-    let counting = Counting::new(&oracle, BITS, Window::Rect).expect("a circuit");
+    let counting = CountingCircuit::new(&oracle, BITS, Window::Rect).expect("a circuit");
     let mut wires = Wires::new(&[
         ("index", "id"),
         ("phase, bit 0", "solid s5"),
@@ -234,7 +236,7 @@ pub(super) fn counting() -> Figure {
     }
     let mut machine = Dense::new(counting.qubits()).expect("a machine");
     counting
-        .part(Part::Counting, &mut |gate| machine.gate(gate))
+        .part(CircuitPart::Counting, &mut |gate| machine.gate(gate))
         .expect("gates");
     let read = machine
         .distribution(counting.phase_register())

@@ -1,7 +1,7 @@
 //! Geometry of rays: a path, the edges of a face, and a point on a lamp.
 
 use super::{Figure, cornell, scene};
-use qrt::core::tracer::Geometry;
+use qrt::core::tracer::StageGeometry;
 use qrt::drawing::{Canvas, Panel, polyline};
 use qrt::runtime::predicates::trace_path_of;
 use qrt::runtime::render::Model;
@@ -102,7 +102,7 @@ geometry:
 /// Draws half-plane edge tests.
 pub(super) fn edges() -> Figure {
     let scene = scene(FACES, "faces.yaml");
-    let geometry = Geometry::new(scene.polygons(), |_| false, &[]);
+    let geometry = StageGeometry::new(scene.polygons(), scene.balls(), |_| false, &[]);
     let mut canvas = Canvas::new(
         "A face is where all edge tests of its plane pass",
         580.0,

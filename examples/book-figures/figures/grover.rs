@@ -1,7 +1,9 @@
 //! Grover's iterate on amplitudes, gate by gate.
 
 use super::Figure;
-use qrt::circuit::quantum::{Counting, GroverIterate, Part, PhaseOracle, QuantumGate};
+use qrt::circuit::quantum::{
+    CircuitPart, CountingCircuit, GroverIterate, PhaseOracle, QuantumGate,
+};
 use qrt::drawing::{Canvas, Panel, number, polyline, ticks};
 use qrt::machines::statevector::{Dense, StateVector, StateVectorError, fold};
 use qrt::scene::Window;
@@ -105,9 +107,9 @@ pub(super) fn plane() -> Figure {
 
 /// Returns the phase register's distribution. Unless `right`, leaves out the Z that corrects O_0's sign
 /// under a control.
-fn counted(counting: &Counting<'_>, right: bool) -> Result<Vec<f64>, StateVectorError> {
+fn counted(counting: &CountingCircuit<'_>, right: bool) -> Result<Vec<f64>, StateVectorError> {
     let mut machine = Dense::new(counting.qubits())?;
-    counting.part(Part::Counting, &mut |gate| match gate {
+    counting.part(CircuitPart::Counting, &mut |gate| match gate {
         QuantumGate::Phase { on: [qubit], .. }
             if !right && counting.phase_register().contains(qubit) =>
         {
@@ -124,7 +126,7 @@ pub(super) fn sign() -> Figure {
     const GOOD: u64 = 13;
     const PHASE_BITS: u32 = 5;
     let oracle = oracle(BITS, GOOD);
-    let counting = Counting::new(&oracle, PHASE_BITS, Window::Rect).expect("a circuit");
+    let counting = CountingCircuit::new(&oracle, PHASE_BITS, Window::Rect).expect("a circuit");
     let size = f64::from(1_u32 << PHASE_BITS);
     let ids = f64::from(1_u32 << BITS);
     let read = |y: usize| {

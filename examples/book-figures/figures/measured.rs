@@ -1,8 +1,8 @@
 //! Figures of measured tables: `book/data`.
 
 use super::{Figure, root, style};
-use qrt::drawing::{Axis, Drawn, Fit, Plot, Point, Series};
-use qrt::runtime::trade::pareto;
+use qrt::drawing::{Drawn, Fit, Plot, PlotAxis, Point, Series};
+use qrt::lab::trade::pareto;
 
 /// A table: its columns' names and its rows.
 struct Table {
@@ -90,8 +90,8 @@ pub(super) fn truncation() -> Figure {
     });
     let plot = Plot {
         title: "Error of a picture over the number of paths".to_owned(),
-        x: Axis::bits("path bits, log₂ of the paths a pixel"),
-        y: Axis::log("RMSE over the mean"),
+        x: PlotAxis::bits("path bits, log₂ of the paths a pixel"),
+        y: PlotAxis::log("RMSE over the mean"),
         series: series.collect(),
     };
     Figure::drawn(plot.draw(), says)
@@ -126,8 +126,8 @@ fn estimators(amplitudes: &str, error: &str, title: &str, axis: &str, what: &str
     });
     let plot = Plot {
         title: title.to_owned(),
-        x: Axis::log("queries, applications of the oracle"),
-        y: Axis::log(axis),
+        x: PlotAxis::log("queries, applications of the oracle"),
+        y: PlotAxis::log(axis),
         series: series.collect(),
     };
     Figure::drawn(plot.draw(), says)
@@ -229,8 +229,8 @@ pub(super) fn trade() -> Figure {
     );
     let plot = Plot {
         title: "The Cornell box: total error against queries".to_owned(),
-        x: Axis::log("queries of a pixel"),
-        y: Axis::log("total error: RMSE over the mean"),
+        x: PlotAxis::log("queries of a pixel"),
+        y: PlotAxis::log("total error: RMSE over the mean"),
         series: vec![
             drawn("all settings", rest, Drawn::Points),
             drawn("the front", front, Drawn::Steps),
@@ -275,8 +275,8 @@ pub(super) fn parts() -> Figure {
     });
     let plot = Plot {
         title: "Where the Cornell box's error comes from".to_owned(),
-        x: Axis::log("queries of a pixel"),
-        y: Axis::log("RMSE over the mean"),
+        x: PlotAxis::log("queries of a pixel"),
+        y: PlotAxis::log("RMSE over the mean"),
         series: series.into(),
     };
     Figure::drawn(plot.draw(), says)
@@ -306,8 +306,8 @@ pub(super) fn rivals() -> Figure {
     );
     let plot = Plot {
         title: "Counting and its rivals, Cornell box".to_owned(),
-        x: Axis::log("queries, or paths, of a pixel"),
-        y: Axis::log("RMSE over the mean"),
+        x: PlotAxis::log("queries, or paths, of a pixel"),
+        y: PlotAxis::log("RMSE over the mean"),
         series: series.into(),
     };
     Figure::drawn(plot.draw(), says)

@@ -119,7 +119,7 @@ pub(crate) fn folder() -> PathBuf {
 
 /// Returns the style of a name, so that it has the same colour in all figures.
 fn style(name: &str) -> usize {
-    qrt::runtime::trade::style(name).unwrap_or_else(|| panic!("`{name}` has no style"))
+    qrt::lab::trade::style(name).unwrap_or_else(|| panic!("`{name}` has no style"))
 }
 
 /// Loads the Cornell box of the example scenes, with overrides.

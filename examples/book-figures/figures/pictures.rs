@@ -3,7 +3,7 @@
 use super::{Body, Figure, cornell, root, scene};
 use qrt::runtime::image::Image;
 use qrt::runtime::path_machines::Real;
-use qrt::runtime::render::{Model, Options, render};
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
 use qrt::scene::Estimator;
@@ -66,7 +66,7 @@ fn error(image: &Image, truth: &Image) -> f64 {
     (squares / all.len() as f64).sqrt() / mean
 }
 
-fn rendered(scene: &ValidScene, options: &Options<'_>) -> (Image, f64) {
+fn rendered(scene: &ValidScene, options: &RenderOptions<'_>) -> (Image, f64) {
     let rendered = render(scene, options).expect("a picture");
     let channels = 3.0 * rendered.image.pixels.len() as f64;
     let queries = rendered.total_queries() as f64 / channels;
@@ -78,7 +78,7 @@ pub(super) fn first() -> Figure {
     let file = root().join("scenes-yaml/lit-box.yaml");
     let film = ["film={ width: 128, height: 128 }".to_owned()];
     let loaded = front::load(&file, &film).unwrap_or_else(|report| panic!("{report}"));
-    let (image, queries) = rendered(&loaded.valid, &Options::default());
+    let (image, queries) = rendered(&loaded.valid, &RenderOptions::default());
     let says = format!(
         "128 x 128 pixels, each shown as 2 x 2; 2^10 paths a pixel, sine window, {queries:.0} \
          queries a channel, exposure 1, as `qrt render scenes-yaml/lit-box.yaml --exposure 1` \
@@ -144,9 +144,9 @@ pub(super) fn counted() -> Figure {
         Estimator::AdaptiveBayes,
     ];
     let all = estimators.map(|estimator| {
-        let options = Options {
+        let options = RenderOptions {
             estimator: Some(estimator),
-            ..Options::default()
+            ..RenderOptions::default()
         };
         rendered(&scene, &options)
     });
@@ -285,10 +285,10 @@ pub(super) fn gates() -> Figure {
 
 /// Same as [`gates`], by a model that makes the same picture.
 pub(crate) fn by_gates(model: Model) -> Figure {
-    let options = Options {
-        model,
+    let options = RenderOptions {
+        model: Some(model),
         estimator: Some(Estimator::Exact),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let (image, _) = rendered(&small_box(), &options);
     let says =
@@ -304,11 +304,11 @@ pub(crate) fn by_gates(model: Model) -> Figure {
 #[allow(dead_code, reason = "the test's")]
 pub(crate) fn gates_crop(whole: &Image) -> [Vec<[f64; 3]>; 2] {
     const CROP: [u32; 4] = [13, 11, 4, 4];
-    let options = Options {
-        model: Model::Gates,
+    let options = RenderOptions {
+        model: Some(Model::Gates),
         estimator: Some(Estimator::Exact),
         crop: Some(CROP),
-        ..Options::default()
+        ..RenderOptions::default()
     };
     let (part, _) = rendered(&small_box(), &options);
     let [left, top, width, height] = CROP;

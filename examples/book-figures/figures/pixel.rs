@@ -8,7 +8,7 @@ use super::Figure;
 use qrt::circuit::quantum::Window;
 use qrt::counting::PhaseDistribution;
 use qrt::drawing::{Canvas, Panel, minus, ticks};
-use qrt::runtime::draw::Wires;
+use qrt::lab::draw::Wires;
 use std::f64::consts::PI;
 
 /// The cells of the ceiling: left edge of the first, width.

@@ -7,7 +7,7 @@
 //! lead beyond c, each of them one integral.
 
 use super::{Figure, scene, style};
-use qrt::drawing::{Axis, Drawn, Plot, Series};
+use qrt::drawing::{Drawn, Plot, PlotAxis, Series};
 use qrt::runtime::path_machines::Real;
 use qrt::runtime::sample::tallies;
 use qrt::runtime::workers::Workers;
@@ -156,8 +156,8 @@ pub(super) fn dimensions() -> Figure {
     let series = names.iter().zip(found);
     let plot = Plot {
         title: "4,096 paths of D rays against a known answer".to_owned(),
-        x: Axis::bits("D, rays of a path (2 D coordinates)"),
-        y: Axis::log("RMSE over the mean"),
+        x: PlotAxis::bits("D, rays of a path (2 D coordinates)"),
+        y: PlotAxis::log("RMSE over the mean"),
         series: series
             .map(|(name, errors)| Series::new(name, errors, Drawn::Joined).styled(style(name)))
             .collect(),

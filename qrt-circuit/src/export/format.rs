@@ -2,7 +2,7 @@
 
 /// A language in which a circuit is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Format {
+pub enum ExportFormat {
     /// OpenQASM 3.0 (Cross et al., *OpenQASM 3: a broader and deeper quantum assembly language*,
     /// 2022), with its `stdgates.inc`.
     #[default]
@@ -11,7 +11,7 @@ pub enum Format {
     OpenQasm2,
 }
 
-impl Format {
+impl ExportFormat {
     /// The language's name: `openqasm3` or `openqasm2`.
     pub fn name(self) -> &'static str {
         match self {

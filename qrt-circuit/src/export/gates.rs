@@ -1,6 +1,6 @@
 //! The writer of gates, one a line.
 
-use super::{ExportError, Format, PHASE_REGISTER, Register};
+use super::{ExportError, ExportFormat, ExportRegister, PHASE_REGISTER};
 use crate::quantum::{QuantumGate, Turns};
 use crate::{Qubit, grouped};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::io::{self, Write};
 
 /// Counts of an export: its gates, qubits and bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct ExportCounts {
     /// Number of gates written, by the name of the gate.
     pub by_name: BTreeMap<&'static str, u64>,
     /// Number of qubits of the circuit, in all registers.
@@ -19,7 +19,7 @@ pub struct Tally {
     pub bytes: u64,
 }
 
-impl Tally {
+impl ExportCounts {
     /// Number of gates written, of all names.
     pub fn gates(&self) -> u64 {
         self.by_name.values().sum()
@@ -49,20 +49,20 @@ impl Tally {
 
 /// Writes a circuit in an OpenQASM language, line by line.
 pub(super) struct Writer<'a, W> {
-    format: Format,
-    registers: &'a [Register],
+    format: ExportFormat,
+    registers: &'a [ExportRegister],
     /// The register of each qubit, and its bit there. The names of millions of qubits would take a
     /// gigabyte.
     places: Vec<[u32; 2]>,
-    tally: Tally,
+    tally: ExportCounts,
     line: String,
     out: &'a mut W,
 }
 
 impl<'a, W: Write> Writer<'a, W> {
     pub(super) fn new(
-        format: Format,
-        registers: &'a [Register],
+        format: ExportFormat,
+        registers: &'a [ExportRegister],
         qubits: u32,
         out: &'a mut W,
     ) -> Self {
@@ -76,9 +76,9 @@ impl<'a, W: Write> Writer<'a, W> {
             format,
             registers,
             places,
-            tally: Tally {
+            tally: ExportCounts {
                 qubits,
-                ..Tally::default()
+                ..ExportCounts::default()
             },
             line: String::new(),
             out,
@@ -111,7 +111,7 @@ impl<'a, W: Write> Writer<'a, W> {
             self.comment(comment)?;
         }
         let registers = self.registers;
-        for Register { name, qubits } in registers {
+        for ExportRegister { name, qubits } in registers {
             self.put(&self.format.qubits(name, qubits.len()))?;
         }
         if outcome > 0 {
@@ -192,7 +192,7 @@ impl<'a, W: Write> Writer<'a, W> {
     }
 
     /// Writes a last line with the counts, and returns them.
-    pub(super) fn end(mut self) -> io::Result<Tally> {
+    pub(super) fn end(mut self) -> io::Result<ExportCounts> {
         self.comment(&self.tally.text())?;
         self.out.flush()?;
         Ok(self.tally)

@@ -30,14 +30,15 @@
 //! significant.
 //!
 //! ```
-//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, Window};
-//! use qrt_circuit::export::{Export, Format};
+//! use qrt_circuit::quantum::{CountingCircuit, CircuitPart, PhaseOracle, Window};
+//! use qrt_circuit::export::{Export, ExportFormat};
 //!
 //! // 3 of 4 basis states are good; one bit of phase.
 //! let oracle = PhaseOracle::polynomial(2, vec![vec![0], vec![1], vec![0, 1]])?;
-//! let counting = Counting::new(&oracle, 1, Window::Rect)?;
+//! let counting = CountingCircuit::new(&oracle, 1, Window::Rect)?;
 //! let mut text = Vec::new();
-//! let written = Export::new(&counting, Part::Oracle, &[])?.write(Format::OpenQasm3, &[], &mut text)?;
+//! let export = Export::new(&counting, CircuitPart::Oracle, &[])?;
+//! let written = export.write(ExportFormat::OpenQasm3, &[], &mut text)?;
 //! assert_eq!(
 //!     String::from_utf8(text)?,
 //!     "\
@@ -61,11 +62,11 @@ mod gates;
 mod tests;
 
 pub use error::ExportError;
-pub use format::Format;
-pub use gates::Tally;
+pub use format::ExportFormat;
+pub use gates::ExportCounts;
 
-use crate::quantum::{Counting, Part, QuantumGate, Turns};
-use crate::{Circuit, Gate, Program, Qubit, lower};
+use crate::quantum::{CircuitPart, CountingCircuit, QuantumGate, Turns};
+use crate::{Gate, GateCircuit, Program, Qubit, lower};
 use gates::Writer;
 use std::borrow::Cow;
 use std::io::Write;
@@ -79,7 +80,7 @@ const PHASE_REGISTER: &str = "phase_register";
 
 /// A register of an exported circuit.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Register {
+pub struct ExportRegister {
     /// The register's name, as the text declares it.
     pub name: Cow<'static, str>,
     /// The register's qubits in the circuit that is exported, bit 0 first.
@@ -89,14 +90,14 @@ pub struct Register {
 /// A part of a counting circuit, ready to be written.
 ///
 /// OpenQASM's libraries have no phase flip on more than three qubits. The phase flip of O_0 is on
-/// all qubits in superposition and, in a counting circuit, on its control. [`Counting::with`] and
-/// [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis) make circuits without a phase
-/// flip on more than three qubits.
+/// all qubits in superposition and, in a counting circuit, on its control.
+/// [`CountingCircuit::with`] and [`Conjunction::Toffolis`](crate::quantum::Conjunction::Toffolis)
+/// make circuits without a phase flip on more than three qubits.
 #[derive(Clone)]
 pub struct Export<'a> {
-    counting: &'a Counting<'a>,
-    part: Part,
-    registers: Vec<Register>,
+    counting: &'a CountingCircuit<'a>,
+    part: CircuitPart,
+    registers: Vec<ExportRegister>,
     /// Number of measured bits: those of the phase register, if there is one.
     outcome: usize,
     cancel: Option<&'a AtomicBool>,
@@ -122,8 +123,8 @@ impl<'a> Export<'a> {
     /// # Errors
     /// The index has fewer qubits than `parts` in all.
     pub fn new(
-        counting: &'a Counting<'a>,
-        part: Part,
+        counting: &'a CountingCircuit<'a>,
+        part: CircuitPart,
         parts: &[(&'static str, u32)],
     ) -> Result<Self, ExportError> {
         let index = counting.iterate().oracle().index();
@@ -146,7 +147,7 @@ impl<'a> Export<'a> {
             .collect();
         registers.push(("work", work));
         let mut outcome = 0;
-        if part == Part::Counting {
+        if part == CircuitPart::Counting {
             let phase = counting.phase_register();
             outcome = phase.len();
             registers.push((PHASE_REGISTER, phase.to_vec()));
@@ -159,7 +160,7 @@ impl<'a> Export<'a> {
             registers: registers
                 .into_iter()
                 .filter(|(_, qubits)| !qubits.is_empty())
-                .map(|(name, qubits)| Register {
+                .map(|(name, qubits)| ExportRegister {
                     name: name.into(),
                     qubits,
                 })
@@ -184,7 +185,7 @@ impl<'a> Export<'a> {
     }
 
     /// Returns the registers in the order of their declarations; none is empty.
-    pub fn registers(&self) -> &[Register] {
+    pub fn registers(&self) -> &[ExportRegister] {
         &self.registers
     }
 
@@ -208,10 +209,10 @@ impl<'a> Export<'a> {
     /// text may have been written.
     pub fn write(
         &self,
-        format: Format,
+        format: ExportFormat,
         comments: &[String],
         out: &mut impl Write,
-    ) -> Result<Tally, ExportError> {
+    ) -> Result<ExportCounts, ExportError> {
         self.check_cancelled()?;
         let mut out = Writer::new(format, &self.registers, self.qubits(), out);
         out.header(comments, self.outcome)?;
@@ -240,6 +241,34 @@ impl<'a> Export<'a> {
     }
 }
 
+impl Program {
+    /// Writes the program as OpenQASM: [`write_program`].
+    ///
+    /// ```
+    /// use qrt_circuit::export::ExportFormat;
+    /// use qrt_circuit::{Declaration, Machine, Operand, Recorder, Style, Type};
+    ///
+    /// let mut recorder = Recorder::new(Style::InPlace);
+    /// let mut sum = recorder.input(&Declaration::work("sum", Type::UInt, 2));
+    /// recorder.xor_into(&mut sum, Operand::Constant(2), None);
+    /// let mut text = Vec::new();
+    /// let tally = recorder.finish().write(ExportFormat::OpenQasm3, &mut text)?;
+    /// assert_eq!(tally.by_name["x"], 1);
+    /// assert!(String::from_utf8(text)?.contains("x sum[1];"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// An error of `out`. A program with classical parameters: [`Program::bound`] sets them.
+    pub fn write(
+        &self,
+        format: ExportFormat,
+        out: &mut impl Write,
+    ) -> Result<ExportCounts, ExportError> {
+        write_program(self, &[], format, &[], out)
+    }
+}
+
 /// Writes a reversible program.
 ///
 /// Its inputs and its results become registers of their names. Characters that OpenQASM's names
@@ -253,10 +282,10 @@ impl<'a> Export<'a> {
 pub fn write_program(
     program: &Program,
     words: &[u64],
-    format: Format,
+    format: ExportFormat,
     comments: &[String],
     out: &mut impl Write,
-) -> Result<Tally, ExportError> {
+) -> Result<ExportCounts, ExportError> {
     let circuit = lower::circuit(program);
     let registers = registers(program, &circuit);
     let mut out = Writer::new(format, &registers, circuit.qubits, out);
@@ -287,10 +316,10 @@ pub fn write_program(
 }
 
 /// Returns the registers of a program's circuit, each with a name of its own.
-fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
+fn registers(program: &Program, circuit: &GateCircuit) -> Vec<ExportRegister> {
     let held = circuit.inputs.iter().chain(&circuit.outputs);
     let mut seen = Vec::new();
-    let mut registers: Vec<Register> = Vec::new();
+    let mut registers: Vec<ExportRegister> = Vec::new();
     let mut taken = vec![false; circuit.qubits as usize];
     for (id, qubits) in held {
         if seen.contains(id) || qubits.is_empty() {
@@ -315,7 +344,7 @@ fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let mut names = std::iter::once(name.clone()).chain(numbered);
         let name = names.find(|name| !alike(name)).unwrap_or_default();
-        registers.push(Register {
+        registers.push(ExportRegister {
             name: name.into(),
             qubits: qubits.clone(),
         });
@@ -324,7 +353,7 @@ fn registers(program: &Program, circuit: &Circuit) -> Vec<Register> {
         .filter(|qubit| !taken[*qubit as usize])
         .collect();
     if !work.is_empty() {
-        registers.push(Register {
+        registers.push(ExportRegister {
             name: "work".into(),
             qubits: work,
         });

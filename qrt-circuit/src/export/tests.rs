@@ -1,7 +1,7 @@
 use super::*;
 use crate::quantum::{Conjunction, PhaseOracle, Window};
 
-fn text(counting: &Counting<'_>, part: Part, format: Format) -> String {
+fn text(counting: &CountingCircuit<'_>, part: CircuitPart, format: ExportFormat) -> String {
     let mut text = Vec::new();
     let export = Export::new(counting, part, &[]).unwrap();
     let tally = export.write(format, &[], &mut text).unwrap();
@@ -20,7 +20,7 @@ fn gates(text: &str) -> Vec<&str> {
 #[test]
 fn signs_under_one_two_and_three_qubits_have_gates() {
     let oracle = PhaseOracle::polynomial(3, vec![vec![1], vec![2, 0], vec![0, 1, 2]]).unwrap();
-    let counting = Counting::new(&oracle, 1, Window::Rect).unwrap();
+    let counting = CountingCircuit::new(&oracle, 1, Window::Rect).unwrap();
     let lines = [
         "z index[1];",
         "cz index[2], index[0];",
@@ -28,15 +28,15 @@ fn signs_under_one_two_and_three_qubits_have_gates() {
         "ccx index[0], index[1], index[2];",
         "h index[2];",
     ];
-    for format in [Format::OpenQasm3, Format::OpenQasm2] {
-        assert_eq!(gates(&text(&counting, Part::Oracle, format)), lines);
+    for format in [ExportFormat::OpenQasm3, ExportFormat::OpenQasm2] {
+        assert_eq!(gates(&text(&counting, CircuitPart::Oracle, format)), lines);
     }
 }
 
 #[test]
 fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
     let oracle = PhaseOracle::polynomial(1, vec![vec![0]]).unwrap();
-    let counting = Counting::with(&oracle, 2, Window::Rect, Conjunction::Toffolis).unwrap();
+    let counting = CountingCircuit::with(&oracle, 2, Window::Rect, Conjunction::Toffolis).unwrap();
     let iterate = |control: u32| {
         [
             format!("cz phase_register[{control}], index[0];"),
@@ -50,7 +50,7 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
     };
     for (format, phase, measures) in [
         (
-            Format::OpenQasm3,
+            ExportFormat::OpenQasm3,
             "cp",
             [
                 "outcome[0] = measure phase_register[0];",
@@ -58,7 +58,7 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
             ],
         ),
         (
-            Format::OpenQasm2,
+            ExportFormat::OpenQasm2,
             "cu1",
             [
                 "measure phase_register[0] -> outcome[0];",
@@ -85,13 +85,16 @@ fn a_counting_circuit_of_one_id_bit_is_known_line_by_line() {
             "h phase_register[1];".to_owned(),
         ]);
         lines.extend(measures.map(str::to_owned));
-        assert_eq!(gates(&text(&counting, Part::Counting, format)), lines);
+        assert_eq!(
+            gates(&text(&counting, CircuitPart::Counting, format)),
+            lines
+        );
     }
 }
 
 #[test]
 fn the_last_line_is_grammatical() {
-    let tally = |gates: &[(&'static str, u64)], qubits| Tally {
+    let tally = |gates: &[(&'static str, u64)], qubits| ExportCounts {
         by_name: gates.iter().copied().collect(),
         qubits,
         bytes: 0,
@@ -115,7 +118,7 @@ fn a_programs_registers_keep_their_names() {
     m.add(&of("ray1_x"), a.into(), b.into());
     let program = m.finish();
     let mut text = Vec::new();
-    write_program(&program, &[], Format::OpenQasm3, &[], &mut text).unwrap();
+    write_program(&program, &[], ExportFormat::OpenQasm3, &[], &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let declared: Vec<&str> = text
         .lines()
@@ -137,7 +140,7 @@ fn words_of_the_language_are_no_names_of_registers() {
     }
     let program = m.finish();
     let mut text = Vec::new();
-    write_program(&program, &[], Format::OpenQasm2, &[], &mut text).unwrap();
+    write_program(&program, &[], ExportFormat::OpenQasm2, &[], &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let declared: Vec<&str> = text.lines().skip(2).take(5).collect();
     assert_eq!(
@@ -169,7 +172,8 @@ fn a_parameter_without_a_word_is_refused() {
     let program = m.finish();
     let write = |words: &[u64]| {
         let mut text = Vec::new();
-        write_program(&program, words, Format::OpenQasm2, &[], &mut text).map(|tally| tally.gates())
+        write_program(&program, words, ExportFormat::OpenQasm2, &[], &mut text)
+            .map(|tally| tally.gates())
     };
     assert_eq!(write(&[0b10]).unwrap(), 1);
     assert!(matches!(

@@ -8,7 +8,7 @@
 //! addition adds one Toffoli a bit to the ladder, 3n - 2 in all (Takahashi, Tani and Kunihiro
 //! 2010).
 
-use super::{Gates, Lowering, Qubit, Wire};
+use super::{GateSink, Lowering, Qubit, Wire};
 
 /// The place of a carry, and its gates.
 enum Carry {

@@ -1,6 +1,6 @@
 //! Conditional operations: negation, choice, exclusive or.
 
-use super::{Gates, Lowering, Qubit, Wire};
+use super::{GateSink, Lowering, Qubit, Wire};
 
 impl Lowering {
     /// `t = if when { -a } else { a }`: a carry that starts as `when` propagates through the zeros

@@ -40,7 +40,7 @@ impl Sum for Cost {
 
 /// The figures that the lowering of an operation yields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Figures {
+pub struct OpFigures {
     /// The costs of the operation and of its inverse: [`super::costs`].
     pub costs: [Cost; 2],
     /// The width in qubits of its garbage register: [`super::scratch_width`].
@@ -59,7 +59,7 @@ pub fn costs(op: &Op, width: impl Fn(RegisterId) -> u32) -> [Cost; 2] {
 }
 
 /// Returns the figures of an operation on registers of these `widths`, indexed by register number.
-pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
+pub(super) fn counted(op: &Op, widths: &[u32]) -> OpFigures {
     let mut lowering = placed(widths);
     let own = lowering.pool.made();
     let mut clean = vec![Clean::No; own as usize];
@@ -120,7 +120,7 @@ pub(super) fn counted(op: &Op, widths: &[u32]) -> Figures {
         and_measured,
         ..cost
     });
-    Figures {
+    OpFigures {
         costs,
         scratch: lowering.garbage.len() as u32,
         borrowed: lowering.pool.most_lent(),

@@ -10,7 +10,7 @@
 //! remainder if the quotient is wider than b, and only those bits are ANDed.
 
 use super::super::{Style, Word};
-use super::{Gates, Lowering, Qubit, Wire, extended, qubits};
+use super::{GateSink, Lowering, Qubit, Wire, extended, qubits};
 
 impl Lowering {
     pub(super) fn divide(

@@ -1,7 +1,7 @@
 //! Costs and numbers of qubits of operations, computed once for operations that are alike.
 
 use super::super::{Cores, Op, RegisterId};
-use super::cost::{Figures, counted};
+use super::cost::{OpFigures, counted};
 use super::place::{Shape, canonical};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -31,15 +31,15 @@ use std::hash::{BuildHasherDefault, Hasher};
 pub struct KnownFigures {
     /// The index in `found` of the figures of each operation.
     places: QuickMap<Shape, usize>,
-    found: Vec<Figures>,
+    found: Vec<OpFigures>,
 }
 
 /// A hash map for trusted keys: no protection against chosen collisions.
-pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
+pub type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
 impl KnownFigures {
     /// Returns the figures of an operation, given the widths of its registers.
-    pub fn figures(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> Figures {
+    pub fn figures(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> OpFigures {
         let place = self.places.entry(canonical(op, width));
         let place = *place.or_insert_with_key(|(op, widths)| {
             self.found.push(counted(op, widths));
@@ -54,7 +54,7 @@ impl KnownFigures {
         ops: &[&Op],
         width: impl Fn(RegisterId) -> u32 + Sync,
         cores: Cores,
-    ) -> Vec<Figures> {
+    ) -> Vec<OpFigures> {
         let shape = |op: &&Op| canonical(op, &width);
         let mut new: Vec<Shape> = Vec::new();
         let mut places = Vec::with_capacity(ops.len());

@@ -40,10 +40,10 @@ mod tests;
 mod walk;
 mod wire;
 
-pub use cost::{Cost, Figures, cost, costs, tally, toffoli};
+pub use cost::{Cost, OpFigures, cost, costs, tally, toffoli};
 pub use figures::KnownFigures;
 #[doc(hidden)]
-pub use figures::Quick;
+pub use figures::{Quick, QuickMap};
 pub use ghosts::with_ghosts;
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,
@@ -53,7 +53,7 @@ pub use size::{Size, depth, most_qubits, most_qubits_by, size};
 pub use table::best_low;
 pub use template::{Templates, try_each_template};
 
-use super::{Bit, Gate, Gates, Op, Operand, Qubit, RegisterId, Style, When, Word};
+use super::{Bit, Gate, GateSink, Op, Operand, Qubit, RegisterId, Style, When, Word};
 use place::Pool;
 use wire::Wire;
 
@@ -75,7 +75,7 @@ struct Lowering {
     scratch: Option<Vec<Qubit>>,
 }
 
-impl Gates for Lowering {
+impl GateSink for Lowering {
     #[inline(always)]
     fn gate(&mut self, gate: Gate) {
         self.gates.push(gate);

@@ -16,7 +16,7 @@
 //! place, rows are added within the product's bits.
 
 use super::super::{Style, Word};
-use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
+use super::{GateSink, Lowering, Qubit, Wire, extended, invert, qubits};
 
 /// The places of a result's bits: those from `drop` on are in the target, those below in the
 /// garbage.

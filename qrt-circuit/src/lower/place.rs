@@ -1,6 +1,6 @@
 //! Placing registers on qubits.
 
-use super::super::{Circuit, Gate, Op, Program, Qubit, RegisterId};
+use super::super::{Gate, GateCircuit, Op, Program, Qubit, RegisterId};
 use super::Lowering;
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -184,24 +184,32 @@ pub(super) fn placed(widths: &[u32]) -> Lowering {
     lowering
 }
 
+impl Program {
+    /// Lowers the program to gates: [`circuit`]. If the gates exceed the memory, see
+    /// [`each_instruction`].
+    pub fn circuit(&self) -> GateCircuit {
+        circuit(self)
+    }
+}
+
 /// Lowers a program. A register's qubits are allocated when it is computed, and freed, zero again,
 /// when it is undone.
-pub fn circuit(program: &Program) -> Circuit {
+pub fn circuit(program: &Program) -> GateCircuit {
     parts(program, &[]).into_iter().next().unwrap_or_default()
 }
 
 /// Lowers a program in parts that share their qubits. It is cut before the instructions `cuts`,
 /// which ascend.
-pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
+pub fn parts(program: &Program, cuts: &[usize]) -> Vec<GateCircuit> {
     let mut lowering = Lowering::on(program);
     let ends = cuts.iter().copied().chain([program.instructions.len()]);
     let mut parts = Vec::with_capacity(cuts.len() + 1);
     let mut begin = 0;
     for end in ends {
-        let mut part = Circuit {
+        let mut part = GateCircuit {
             inputs: lowering.held(),
             parameters: program.parameters.clone(),
-            ..Circuit::default()
+            ..GateCircuit::default()
         };
         for instruction in &program.instructions[begin..end] {
             let op = &program.ops[instruction.op as usize];
@@ -226,8 +234,8 @@ pub fn parts(program: &Program, cuts: &[usize]) -> Vec<Circuit> {
 ///
 /// Returns the parts, and the number of gates of the first and the last. The first part also has
 /// its `outputs`; all parts have `qubits` and `parameters`. Nothing else is set.
-pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<Circuit>, usize) {
-    let mut parts: Vec<Circuit> = vec![Circuit::default(); cuts.len() + 1];
+pub fn parts_between(program: &Program, cuts: &[usize]) -> (Vec<GateCircuit>, usize) {
+    let mut parts: Vec<GateCircuit> = vec![GateCircuit::default(); cuts.len() + 1];
     let mut lowering = Lowering::on(program);
     let mut left_out = 0;
     let mut computed = false;

@@ -8,7 +8,7 @@
 //! Toffolis for a root of k bits, out of place.
 
 use super::super::{Style, Word};
-use super::{Gates, Lowering, Qubit, Wire, qubits};
+use super::{GateSink, Lowering, Qubit, Wire, qubits};
 
 impl Lowering {
     pub(super) fn root(&mut self, a: Word, style: Style, target: &[Qubit]) {

@@ -8,7 +8,7 @@
 use super::super::multiples::{Multiples, Term};
 use super::super::{Op, RegisterId, Style, Word};
 use super::multiply::Landing;
-use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
+use super::{GateSink, Lowering, Qubit, Wire, extended, invert, qubits};
 
 /// The addition of a shifted copy.
 pub(super) struct Row {
@@ -147,14 +147,21 @@ fn extent(range: [i64; 2], factor: i128) -> (usize, bool) {
     }
 }
 
-/// Returns the wires of the multiple `factor`, which is in `known`, and whether the top one is a
-/// sign.
-fn multiple_of(known: &[(i64, Vec<Wire>, bool)], factor: i64) -> (&[Wire], bool) {
+/// A multiple of a number that is in wires.
+struct KnownMultiple {
+    factor: i64,
+    wires: Vec<Wire>,
+    /// True if the top wire is a sign.
+    signed: bool,
+}
+
+/// Returns the multiple `factor`, which is in `known`.
+fn multiple_of(known: &[KnownMultiple], factor: i64) -> &KnownMultiple {
     let mut place = 0;
-    while known[place].0 != factor {
+    while known[place].factor != factor {
         place += 1;
     }
-    (&known[place].1, known[place].2)
+    &known[place]
 }
 
 pub(super) fn top(wires: &[Wire], signed: bool) -> Wire {
@@ -195,14 +202,18 @@ impl Lowering {
         let number = Word { shift: 0, ..a };
         let range = number.range();
         let own = self.word(number, a.width as usize);
-        let mut known: Vec<(i64, Vec<Wire>, bool)> = vec![(1, own, a.signed)];
+        let mut known = vec![KnownMultiple {
+            factor: 1,
+            wires: own,
+            signed: a.signed,
+        }];
         for &(multiple, sum) in products.sums() {
             let (bits, signed) = extent(range, i128::from(multiple) << sum.zeros);
             let [a, mut b] = [sum.a, sum.b].map(|term| {
-                let (own, signed) = multiple_of(&known, term.factor);
+                let own = multiple_of(&known, term.factor);
                 let mut shifted = vec![Wire::ZERO; term.shift as usize];
-                shifted.extend_from_slice(own);
-                extended(&shifted, top(own, signed), bits)
+                shifted.extend_from_slice(&own.wires);
+                extended(&shifted, top(&own.wires, own.signed), bits)
             });
             // Below the overlap there is one term alone.
             let (alone, below) = match (sum.a.shift, sum.b.shift) {
@@ -215,16 +226,22 @@ impl Lowering {
             let from = whole.len();
             self.add(&a[from..], &b[from..], Wire::constant(sum.subtract), &t);
             whole.extend(qubits(&t));
-            known.push((multiple, whole.split_off(sum.zeros as usize), signed));
+            known.push(KnownMultiple {
+                factor: multiple,
+                wires: whole.split_off(sum.zeros as usize),
+                signed,
+            });
         }
         for (&(factor, drop), target) in products.products().iter().zip(targets) {
             let multiple = Term::from_number(factor);
-            let (own, signed) = multiple_of(&known, multiple.factor);
+            let KnownMultiple {
+                wires: own, signed, ..
+            } = multiple_of(&known, multiple.factor);
             let zeros = (a.shift + multiple.shift) as usize;
             for (place, target) in target.iter().enumerate() {
                 let wire = match (place + drop as usize).checked_sub(zeros) {
                     None => Wire::ZERO,
-                    Some(place) => own.get(place).copied().unwrap_or(top(own, signed)),
+                    Some(place) => own.get(place).copied().unwrap_or(top(own, *signed)),
                 };
                 self.copy(wire, *target);
             }
@@ -256,7 +273,11 @@ impl Lowering {
             }
             let bits = row.after.0.min(needed);
             let fused = index == 0 && rows.fused(needed);
-            let (from, rest, mut number) = operands(&sum, own, a_top, row, fused, bits);
+            let Operands {
+                first: from,
+                a: rest,
+                b: mut number,
+            } = operands(&sum, own, a_top, row, fused, bits);
             let subtract = fused || row.subtract;
             invert(&mut number, subtract);
             let t = self.partial(landing, from, bits - from, next(index + 1) - from);
@@ -318,7 +339,17 @@ impl Lowering {
     }
 }
 
-/// Returns the first bit of a row, and the two operands of its addition or subtraction.
+/// The operands of the addition or subtraction of a row.
+pub(super) struct Operands {
+    /// The lowest bit of the sum that the row changes.
+    pub(super) first: usize,
+    /// The bits of the sum so far, from there.
+    pub(super) a: Vec<Wire>,
+    /// The number that is added or subtracted.
+    pub(super) b: Vec<Wire>,
+}
+
+/// Returns the operands of the addition or subtraction of a row.
 pub(super) fn operands(
     sum: &[Wire],
     own: &[Wire],
@@ -326,12 +357,16 @@ pub(super) fn operands(
     row: &Row,
     fused: bool,
     bits: usize,
-) -> (usize, Vec<Wire>, Vec<Wire>) {
+) -> Operands {
     if fused {
         let mut shifted = vec![Wire::ZERO; row.place];
         shifted.extend_from_slice(own);
         let shifted = extended(&shifted, a_top, bits);
-        return (0, shifted, extended(own, a_top, bits));
+        return Operands {
+            first: 0,
+            a: shifted,
+            b: extended(own, a_top, bits),
+        };
     }
     let above = top(sum, row.before.1);
     let rest = extended(
@@ -339,5 +374,9 @@ pub(super) fn operands(
         above,
         bits - row.place,
     );
-    (row.place, rest, extended(own, a_top, bits - row.place))
+    Operands {
+        first: row.place,
+        a: rest,
+        b: extended(own, a_top, bits - row.place),
+    }
 }

@@ -1,17 +1,17 @@
 //! Number of qubits and Toffoli depth of circuits.
 
-use super::super::{Circuit, Gate, Program, Qubit};
+use super::super::{Gate, GateCircuit, Program, Qubit};
 #[cfg(doc)]
-use super::cost::Figures;
+use super::cost::OpFigures;
 use super::figures::KnownFigures;
 use super::place::each_instruction;
 
 /// The size of a program's circuit in qubits and in Toffoli depth.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Size {
-    /// [`Circuit::qubits`]
+    /// [`GateCircuit::qubits`]
     pub qubits: u32,
-    /// [`Circuit::in_use`]
+    /// [`GateCircuit::in_use`]
     pub in_use: Vec<u32>,
     /// [`depth`]
     pub depth: u64,
@@ -45,7 +45,7 @@ pub fn most_qubits(program: &Program) -> u32 {
 }
 
 /// Returns [`most_qubits`], given the number of qubits that each operation borrows, by its index:
-/// [`Figures::borrowed`].
+/// [`OpFigures::borrowed`].
 pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32) -> u32 {
     let mut held = vec![false; program.registers.len()];
     let (mut in_use, mut most) = (0, 0);
@@ -77,7 +77,7 @@ pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32)
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis
 /// take time.
-pub fn depth(circuit: &Circuit) -> u64 {
+pub fn depth(circuit: &GateCircuit) -> u64 {
     let mut clock = Clock::default();
     clock.schedule(&circuit.gates);
     clock.latest()

@@ -8,7 +8,7 @@
 
 use super::super::{Style, Word};
 use super::multiply::Landing;
-use super::{Gates, Lowering, Qubit, Wire, extended, invert, qubits};
+use super::{GateSink, Lowering, Qubit, Wire, extended, invert, qubits};
 
 /// Number of bits of a square that are computed.
 pub(super) fn needed(a: Word, landing: &Landing) -> usize {

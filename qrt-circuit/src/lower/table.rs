@@ -10,7 +10,7 @@
 //! tree. It takes a Toffoli for each pair of different functions of the address. Equal or opposite
 //! functions, and a function that another bit already has, take none.
 
-use super::{Gates, Lowering, Qubit, Wire};
+use super::{GateSink, Lowering, Qubit, Wire};
 use std::collections::HashMap;
 
 /// The source of a planned function of the address.

@@ -5,7 +5,7 @@
 //! one child to the other a CNOT, and the way back another AND: `2 (2^k - 2)` Toffolis. Wider words
 //! cost no more. Subtrees of equal entries are not walked.
 
-use super::{Gates, Lowering, Qubit, Wire};
+use super::{GateSink, Lowering, Qubit, Wire};
 
 /// The entries of a subtree, by index.
 type Range = std::ops::Range<usize>;

@@ -10,7 +10,7 @@ use crate::Qubit;
 
 /// A part of the counting circuit, which is emitted gate by gate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
+pub enum CircuitPart {
     /// One call of the phase oracle O_f alone.
     Oracle,
     /// One iterate G alone, its global phase included.
@@ -25,13 +25,13 @@ pub enum Part {
 /// zero before it. After it, all are zero again except the oracle's qubits in superposition and the
 /// phase register.
 #[derive(Clone, Debug)]
-pub struct Counting<'a> {
+pub struct CountingCircuit<'a> {
     iterate: GroverIterate<'a>,
     counter: Vec<Qubit>,
     window: Window,
 }
 
-impl<'a> Counting<'a> {
+impl<'a> CountingCircuit<'a> {
     /// Creates the counting circuit with a phase register of `T = 2^phase_bits`, prepared in a
     /// window.
     ///
@@ -45,10 +45,11 @@ impl<'a> Counting<'a> {
         Self::with(oracle, phase_bits, window, Conjunction::Whole)
     }
 
-    /// Creates the circuit of [`Counting::new`], with O_0's phase flip as `conjunction` specifies.
+    /// Creates the circuit of [`CountingCircuit::new`], with O_0's phase flip as `conjunction`
+    /// specifies.
     ///
     /// # Errors
-    /// As [`Counting::new`].
+    /// As [`CountingCircuit::new`].
     pub fn with(
         oracle: &'a PhaseOracle,
         phase_bits: u32,
@@ -83,6 +84,20 @@ impl<'a> Counting<'a> {
         self.iterate.qubits() + self.counter.len() as u32 + bond
     }
 
+    /// Number of qubits of the counting circuit around an oracle of `oracle` qubits, of which `index` are
+    /// in superposition, for a phase register of `phase_bits` qubits.
+    pub fn qubits_around(
+        oracle: u32,
+        index: u32,
+        phase_bits: u32,
+        window: Window,
+        conjunction: Conjunction,
+    ) -> u32 {
+        let needed = conjunction.ancillas(index + 1);
+        let missing = needed.saturating_sub(oracle - index);
+        oracle + missing + phase_bits + u32::from(window::has_bond(window))
+    }
+
     /// Returns the qubits that are zero after each iterate and at the end: all except those in
     /// superposition, those that are fixed at 1, and the phase register's.
     pub fn ancillas(&self) -> Vec<Qubit> {
@@ -93,21 +108,21 @@ impl<'a> Counting<'a> {
     }
 
     /// Number of qubits that a part uses: they are `0..qubits_of`.
-    pub fn qubits_of(&self, part: Part) -> u32 {
+    pub(crate) fn qubits_of(&self, part: CircuitPart) -> u32 {
         match part {
-            Part::Oracle => self.iterate.oracle().qubits(),
-            Part::Grover => self.iterate.qubits(),
-            Part::Counting => self.qubits(),
+            CircuitPart::Oracle => self.iterate.oracle().qubits(),
+            CircuitPart::Grover => self.iterate.qubits(),
+            CircuitPart::Counting => self.qubits(),
         }
     }
 
     /// Number of gates that a part emits.
-    pub fn gates(&self, part: Part) -> u64 {
+    pub fn gates(&self, part: CircuitPart) -> u64 {
         let bits = self.counter.len() as u32;
         match part {
-            Part::Oracle => self.iterate.oracle().gates(),
-            Part::Grover => self.iterate.gates(false),
-            Part::Counting => {
+            CircuitPart::Oracle => self.iterate.oracle().gates(),
+            CircuitPart::Grover => self.iterate.gates(false),
+            CircuitPart::Counting => {
                 let oracle = self.iterate.oracle();
                 let ids = (oracle.superposed().len() + oracle.ones().len()) as u64;
                 let prepare = ids + window::gates(self.window, bits);
@@ -128,13 +143,13 @@ impl<'a> Counting<'a> {
     /// An error of `sink`, which ends the circuit.
     pub fn part<E>(
         &self,
-        part: Part,
+        part: CircuitPart,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
         match part {
-            Part::Oracle => self.iterate.oracle().apply(None, sink),
-            Part::Grover => self.iterate.apply(None, sink),
-            Part::Counting => {
+            CircuitPart::Oracle => self.iterate.oracle().apply(None, sink),
+            CircuitPart::Grover => self.iterate.apply(None, sink),
+            CircuitPart::Counting => {
                 self.prepare(sink)?;
                 for bit in 0..self.counter.len() as u32 {
                     for _ in 0..1_u64 << bit {

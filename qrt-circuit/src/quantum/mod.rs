@@ -5,7 +5,7 @@
 //!
 //! * [`PhaseOracle`]: O_f, an oracle that flips the phase of good basis states, as gates;
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
-//! * [`Counting`]: Hadamards on the qubits in superposition, the phase register's window,
+//! * [`CountingCircuit`]: Hadamards on the qubits in superposition, the phase register's window,
 //!   controlled powers of G and the inverse Fourier transform;
 //! * [`LogicalCounts`]: the input that estimators of physical resources take from circuits.
 //!
@@ -14,14 +14,14 @@
 //! circuit:
 //!
 //! ```
-//! use qrt_circuit::quantum::{Counting, Part, PhaseOracle, QuantumGate, Window};
+//! use qrt_circuit::quantum::{CountingCircuit, CircuitPart, PhaseOracle, QuantumGate, Window};
 //! use std::convert::Infallible;
 //!
 //! // 3 of 8 basis states are good; the phase is read to 4 bits.
 //! let oracle = PhaseOracle::table(3, |id| id > 4)?;
-//! let counting = Counting::new(&oracle, 4, Window::Rect)?;
+//! let counting = CountingCircuit::new(&oracle, 4, Window::Rect)?;
 //! let mut hadamards = 0;
-//! counting.part(Part::Counting, &mut |gate| {
+//! counting.part(CircuitPart::Counting, &mut |gate| {
 //!     hadamards += u32::from(matches!(gate, QuantumGate::H(_)));
 //!     Ok::<(), Infallible>(())
 //! })?;
@@ -48,7 +48,7 @@ mod tests;
 mod window;
 
 pub use conjunction::Conjunction;
-pub use counting::{Counting, Part};
+pub use counting::{CircuitPart, CountingCircuit};
 pub use error::QuantumError;
 pub use gate::{QuantumGate, Turns};
 pub use grover::GroverIterate;

@@ -3,7 +3,7 @@
 use super::QuantumGate::{Ccx, Cx, Phase, X};
 use super::{QuantumError, QuantumGate, Turns};
 use crate::{
-    Bit, BlockId, Circuit, Gate, Instruction, Op, Program, Qubit, Register, RegisterId, Style,
+    Bit, BlockId, Gate, GateCircuit, Instruction, Op, Program, Qubit, Register, RegisterId, Style,
     Type, lower,
 };
 
@@ -63,9 +63,9 @@ impl PhaseOracle {
     /// No superposed qubits; a missing word; a gate on a qubit that does not exist, or on one qubit
     /// twice; a phase flip outside of `flip`.
     pub fn new(
-        compute: &Circuit,
-        flip: &Circuit,
-        uncompute: &Circuit,
+        compute: &GateCircuit,
+        flip: &GateCircuit,
+        uncompute: &GateCircuit,
         superposed: Vec<Qubit>,
         words: &[u64],
     ) -> Result<Self, QuantumError> {
@@ -129,7 +129,7 @@ impl PhaseOracle {
         let mut gates = 0;
         lower::try_each_instruction(&program, |next, _| {
             for gate in next {
-                if let Some(gate) = with_words(*gate, words)? {
+                if let Some(gate) = with_parameters(*gate, words)? {
                     oracle.check_gate(gate)?;
                     gates += 1;
                 }
@@ -185,7 +185,7 @@ impl PhaseOracle {
         let program = table(bits, good);
         let parts = lower::parts(&program, &[1, 2]);
         let [compute, flip, uncompute] = [0, 1, 2].map(|place| parts.get(place));
-        let empty = Circuit::default();
+        let empty = GateCircuit::default();
         Self::new(
             compute.unwrap_or(&empty),
             flip.unwrap_or(&empty),
@@ -228,7 +228,7 @@ impl PhaseOracle {
     }
 
     /// Returns the fixed qubits that hold 1, before and after each call.
-    pub fn ones(&self) -> &[Qubit] {
+    pub(crate) fn ones(&self) -> &[Qubit] {
         &self.ones
     }
 
@@ -295,7 +295,7 @@ impl PhaseOracle {
                 let done = lower::try_each_instruction(program, |next, _| {
                     for gate in next {
                         // `lowered` has checked that there is a word for each.
-                        match with_words(*gate, words) {
+                        match with_parameters(*gate, words) {
                             Ok(Some(Gate::Z(qubit))) => sign(control, &[qubit], sink)?,
                             Ok(Some(gate)) => reversible(gate, sink)?,
                             Ok(None) | Err(_) => {}
@@ -385,12 +385,12 @@ fn sign<E>(
 fn loaded(gates: &[Gate], words: &[u64]) -> Result<Vec<Gate>, QuantumError> {
     let gates = gates.iter();
     gates
-        .filter_map(|gate| with_words(*gate, words).transpose())
+        .filter_map(|gate| with_parameters(*gate, words).transpose())
         .collect()
 }
 
 /// Returns a gate with a pixel's classical parameters built in: a load is an X, or nothing.
-fn with_words(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumError> {
+fn with_parameters(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumError> {
     Ok(match gate {
         Gate::Load {
             parameter,

@@ -2,7 +2,7 @@
 
 use super::Window;
 use super::*;
-use crate::{Circuit, Gate, Qubit};
+use crate::{Gate, GateCircuit, Qubit};
 use proptest::prelude::*;
 use std::convert::Infallible;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
@@ -273,8 +273,12 @@ fn a_part_has_as_many_gates_and_qubits_as_it_says() {
     let oracle = PhaseOracle::table(4, |id| id % 3 == 1).unwrap();
     for window in [Window::Rect, Window::Sine] {
         for conjunction in [Conjunction::Whole, Conjunction::Toffolis] {
-            let counting = Counting::with(&oracle, 3, window, conjunction).unwrap();
-            for part in [Part::Oracle, Part::Grover, Part::Counting] {
+            let counting = CountingCircuit::with(&oracle, 3, window, conjunction).unwrap();
+            for part in [
+                CircuitPart::Oracle,
+                CircuitPart::Grover,
+                CircuitPart::Counting,
+            ] {
                 let (mut gates, mut most) = (0, 0);
                 let Ok(()) = counting.part(part, &mut |gate| {
                     gates += 1;
@@ -296,10 +300,10 @@ fn a_part_has_as_many_gates_and_qubits_as_it_says() {
 #[test]
 fn a_sink_that_refuses_ends_it() {
     let oracle = PhaseOracle::table(2, |id| id == 1).unwrap();
-    let counting = Counting::new(&oracle, 5, Window::Sine).unwrap();
-    for end in [0, 1, 17, counting.gates(Part::Counting) - 1] {
+    let counting = CountingCircuit::new(&oracle, 5, Window::Sine).unwrap();
+    for end in [0, 1, 17, counting.gates(CircuitPart::Counting) - 1] {
         let mut gates = 0;
-        let ended = counting.part(Part::Counting, &mut |_| {
+        let ended = counting.part(CircuitPart::Counting, &mut |_| {
             gates += 1;
             if gates > end { Err(gates) } else { Ok(()) }
         });
@@ -314,10 +318,10 @@ fn words_are_built_in() {
         bit,
         target,
     };
-    let circuit = |gates: &[Gate]| Circuit {
+    let circuit = |gates: &[Gate]| GateCircuit {
         gates: gates.to_vec(),
         qubits: 3,
-        ..Circuit::default()
+        ..GateCircuit::default()
     };
     let [compute, flip] = [circuit(&[load(0, 1), load(1, 2)]), circuit(&[Gate::Z(2)])];
     let oracle = PhaseOracle::new(&compute, &flip, &compute, vec![0], &[2]).unwrap();
@@ -346,7 +350,7 @@ fn words_are_built_in() {
     assert_eq!(refused(&[Gate::Cx(1, 1)], &[], &[0], &[]), invalid(1));
     let outside = QuantumError::SignOutsideFlip(1);
     assert_eq!(refused(&[Gate::Z(1)], &[], &[0], &[]), outside);
-    let bits = |bits| Counting::new(&oracle, bits, Window::Rect).map(|_| ());
+    let bits = |bits| CountingCircuit::new(&oracle, bits, Window::Rect).map(|_| ());
     assert_eq!(bits(0), Err(QuantumError::PhaseBitsOutOfRange(0)));
     assert_eq!(bits(41), Err(QuantumError::PhaseBitsOutOfRange(41)));
     assert_eq!(bits(40), Ok(()));

@@ -1,111 +1,112 @@
 //! The implementation of [`Arith`] that records a program.
 
 use super::names::Nameable;
-use super::value::{Affine, Bool, Index, Real, Value, bits_of};
+use super::number::RegisterShape;
+use super::value::{Affine, BoolValue, Index, RealValue, Value, bits_of};
 use super::{BuildError, Builder, MAX_ADDRESS, StageName, negative_range};
-use crate::tracer::{Arith, Coordinate, Named, Part, Sampled, Segment};
+use crate::tracer::{Arith, Coordinate, Named, Sampled, Segment, TracerPart};
 use qrt_circuit::{Op, Operand, Word};
 use qrt_scene::expr::Function;
 
 impl Arith for Builder<'_> {
-    type Real = Real;
-    type Bool = Bool;
+    type Real = RealValue;
+    type Bool = BoolValue;
     type Index = Index;
 
-    fn real(&mut self, value: f64) -> Real {
-        Real::constant(value)
+    fn real(&mut self, value: f64) -> RealValue {
+        RealValue::constant(value)
     }
-    fn add(&mut self, a: Real, b: Real) -> Real {
+    fn add(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.plus(a, b)
     }
-    fn sub(&mut self, a: Real, b: Real) -> Real {
+    fn sub(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.plus(a, b.negative())
     }
-    fn mul(&mut self, a: Real, b: Real) -> Real {
+    fn mul(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.times(a, b)
     }
-    fn div(&mut self, a: Real, b: Real, most: f64) -> Real {
+    fn div(&mut self, a: RealValue, b: RealValue, most: f64) -> RealValue {
         self.over(a, b, most)
     }
-    fn ahead(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
+    fn ahead(&mut self, a: RealValue, b: RealValue, most: f64) -> (BoolValue, RealValue) {
         self.ahead_of(a, b, most)
     }
-    fn neg(&mut self, a: Real) -> Real {
+    fn neg(&mut self, a: RealValue) -> RealValue {
         a.negative()
     }
-    fn abs(&mut self, a: Real) -> Real {
+    fn abs(&mut self, a: RealValue) -> RealValue {
         self.magnitude(a)
     }
-    fn sqrt(&mut self, a: Real) -> Real {
+    fn sqrt(&mut self, a: RealValue) -> RealValue {
         self.root(a)
     }
-    fn length(&mut self, v: [Real; 3]) -> Real {
+    fn length(&mut self, v: [RealValue; 3]) -> RealValue {
         self.norm(v)
     }
-    fn known(&mut self, a: Real, low: f64, high: f64) -> Real {
+    fn known(&mut self, a: RealValue, low: f64, high: f64) -> RealValue {
         self.bounded(a, low, high)
     }
-    fn t_max(&mut self, most: f64) -> Real {
-        Real::constant(self.farthest(most))
+    fn t_max(&mut self, most: f64) -> RealValue {
+        RealValue::constant(self.farthest(most))
     }
-    fn inside(&mut self, low: f64, value: Real, high: f64) -> Bool {
+    fn inside(&mut self, low: f64, value: RealValue, high: f64) -> BoolValue {
         // Allow one ulp outwards at each end: a hit's coordinates may be off by that much.
         let reach = self.ulp();
-        let mut inside = Bool::Constant(true);
+        let mut inside = BoolValue::Constant(true);
         if low.is_finite() {
-            let below = self.is_less(value, Real::constant(low - reach));
+            let below = self.is_less(value, RealValue::constant(low - reach));
             inside = self.both(inside, below.negated());
         }
         if high.is_finite() {
-            let above = self.is_less(Real::constant(high + reach), value);
+            let above = self.is_less(RealValue::constant(high + reach), value);
             inside = self.both(inside, above.negated());
         }
         inside
     }
-    fn at_least(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+    fn at_least(&mut self, value: RealValue, table: &[[f64; 1]], row: Index) -> BoolValue {
         let (value, low) = self.beside(value, table, row, -1.0);
         self.is_less(value, low).negated()
     }
-    fn at_most(&mut self, value: Real, table: &[[f64; 1]], row: Index) -> Bool {
+    fn at_most(&mut self, value: RealValue, table: &[[f64; 1]], row: Index) -> BoolValue {
         let (value, high) = self.beside(value, table, row, 1.0);
         self.is_less(high, value).negated()
     }
     fn inward(&mut self) -> f64 {
         4.0 * self.ulp()
     }
-    fn min(&mut self, a: Real, b: Real) -> Real {
+    fn min(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.lesser(a, b)
     }
-    fn max(&mut self, a: Real, b: Real) -> Real {
+    fn max(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.greater(a, b)
     }
-    fn scale(&mut self, a: Real, factor: f64) -> Real {
+    fn scale(&mut self, a: RealValue, factor: f64) -> RealValue {
         self.times_constant(a, factor)
     }
-    fn quotient(&mut self, a: Real, b: Real, most: f64) -> Real {
+    fn quotient(&mut self, a: RealValue, b: RealValue, most: f64) -> RealValue {
         if b.as_constant() == Some(0.0) && !most.is_finite() {
             self.fail(BuildError::UnboundedQuotient);
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         self.over(a, b, most)
     }
-    fn function(&mut self, function: Function, a: Real) -> Real {
+    fn function(&mut self, function: Function, a: RealValue) -> RealValue {
         // Rounding can take a cosine beyond ±1, where the angle is undefined.
         let is_angle = matches!(function, Function::Asin | Function::Acos);
         let known = |x: f64| if is_angle { x.clamp(-1.0, 1.0) } else { x };
         self.smooth(a, |x| function.value(known(x)))
     }
-    fn pow(&mut self, a: Real, b: Real) -> Real {
+    fn pow(&mut self, a: RealValue, b: RealValue) -> RealValue {
         self.power(a, b)
     }
-    fn atan2(&mut self, y: Real, x: Real) -> Real {
+    fn atan2(&mut self, y: RealValue, x: RealValue) -> RealValue {
         self.angle(y, x)
     }
 
-    fn named<const K: usize>(&mut self, name: Named, a: &[Real; K]) {
+    fn named<const K: usize>(&mut self, name: Named, a: &[RealValue; K]) {
         self.name(name, a.iter().copied().map(Nameable::Real));
     }
-    fn named_truth(&mut self, name: Named, a: Bool) {
+    fn named_truth(&mut self, name: Named, a: BoolValue) {
         self.name(name, [Nameable::Bool(a)]);
     }
     fn named_index(&mut self, name: Named, a: Index) {
@@ -123,50 +124,50 @@ impl Arith for Builder<'_> {
         self.surface = surface;
     }
 
-    fn truth(&mut self, value: bool) -> Bool {
-        Bool::Constant(value)
+    fn truth(&mut self, value: bool) -> BoolValue {
+        BoolValue::Constant(value)
     }
-    fn less(&mut self, a: Real, b: Real) -> Bool {
+    fn less(&mut self, a: RealValue, b: RealValue) -> BoolValue {
         self.is_less(a, b)
     }
-    fn less_equal(&mut self, a: Real, b: Real) -> Bool {
+    fn less_equal(&mut self, a: RealValue, b: RealValue) -> BoolValue {
         self.is_less(b, a).negated()
     }
-    fn and(&mut self, a: Bool, b: Bool) -> Bool {
+    fn and(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         self.both(a, b)
     }
-    fn or(&mut self, a: Bool, b: Bool) -> Bool {
+    fn or(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         self.either(a, b)
     }
-    fn select_truth(&mut self, c: Bool, a: Bool, b: Bool) -> Bool {
+    fn select_truth(&mut self, c: BoolValue, a: BoolValue, b: BoolValue) -> BoolValue {
         self.chosen_truth(c, a, b)
     }
-    fn not(&mut self, a: Bool) -> Bool {
+    fn not(&mut self, a: BoolValue) -> BoolValue {
         a.negated()
     }
-    fn any(&mut self, a: Bool) -> bool {
-        a != Bool::Constant(false)
+    fn any(&mut self, a: BoolValue) -> bool {
+        a != BoolValue::Constant(false)
     }
-    fn select(&mut self, c: Bool, a: Real, b: Real) -> Real {
+    fn select(&mut self, c: BoolValue, a: RealValue, b: RealValue) -> RealValue {
         self.chosen(c, a, b)
     }
 
     fn index(&mut self, value: u32) -> Index {
         Index::Constant(self.code(value))
     }
-    fn select_index(&mut self, c: Bool, a: Index, b: Index) -> Index {
+    fn select_index(&mut self, c: BoolValue, a: Index, b: Index) -> Index {
         self.chosen_index(c, a, b)
     }
-    fn is(&mut self, a: Index, value: u32) -> Bool {
+    fn is(&mut self, a: Index, value: u32) -> BoolValue {
         let value = self.code(value);
         self.test(a, |index| index == value)
     }
-    fn below(&mut self, a: Index, value: u32) -> Bool {
+    fn below(&mut self, a: Index, value: u32) -> BoolValue {
         let value = self.code(value);
         self.test(a, |index| index < value)
     }
-    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Index) -> [Real; K] {
-        let mut columns = [Real::constant(0.0); K];
+    fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Index) -> [RealValue; K] {
+        let mut columns = [RealValue::constant(0.0); K];
         for (k, column) in columns.iter_mut().enumerate() {
             *column = self.row(row, table.len(), |row| table.get(row).map_or(0.0, |r| r[k]));
         }
@@ -179,16 +180,16 @@ impl Arith for Builder<'_> {
     fn coordinate(&mut self, coordinate: Coordinate) -> Index {
         self.sample_index(coordinate)
     }
-    fn centre(&mut self, index: Index, bits: u32) -> Real {
+    fn centre(&mut self, index: Index, bits: u32) -> RealValue {
         let node = match index {
             Index::Constant(index) => {
-                return Real::constant((f64::from(index) + 0.5) / (1_u64 << bits) as f64);
+                return RealValue::constant((f64::from(index) + 0.5) / (1_u64 << bits) as f64);
             }
             Index::Node(node) => node,
         };
         let fraction = self.fraction();
         let Operand::Word(word) = self.choice_operand(index) else {
-            return Real::constant(0.5);
+            return RealValue::constant(0.5);
         };
         // If the index has more bits than a number has fraction bits, its lowest bits are dropped.
         // The half cell that is added below then belongs to the coarser cell.
@@ -217,26 +218,29 @@ impl Arith for Builder<'_> {
             table,
         });
         let half = Affine::constant(0.5 / (1_u64 << kept) as f64);
-        Real {
+        RealValue {
             offset: cell.offset.plus(half),
             ..cell
         }
     }
-    fn sampled(&mut self, function: &Sampled, index: Index) -> Real {
+    fn sampled(&mut self, function: &Sampled, index: Index) -> RealValue {
         match index {
-            Index::Constant(index) => Real::constant(function.at(index)),
+            Index::Constant(index) => RealValue::constant(function.at(index)),
             Index::Node(_) if function.bits() <= MAX_ADDRESS => {
                 self.row(index, 1 << function.bits(), |i| function.at(i as u32))
             }
             Index::Node(_) => match self.choice_operand(index) {
                 Operand::Word(word) => self.fitted(word, word.range(), |i| function.at(i as u32)),
-                Operand::Constant(index) => Real::constant(function.at(index as u32)),
+                Operand::Constant(index) => RealValue::constant(function.at(index as u32)),
             },
         }
     }
-    fn pixel(&mut self) -> [Real; 2] {
+    fn pixel(&mut self) -> [RealValue; 2] {
+        if let Some(pixel) = self.target.pixel {
+            return pixel.map(|along| RealValue::constant(f64::from(along)));
+        }
         let along = |along| {
-            Real::fixed(Affine {
+            RealValue::fixed(Affine {
                 constant: 0.0,
                 along,
             })
@@ -244,7 +248,7 @@ impl Arith for Builder<'_> {
         [along([1.0, 0.0]), along([0.0, 1.0])]
     }
 
-    fn record(&mut self, a: Real) {
+    fn record(&mut self, a: RealValue) {
         let plain = self.plain(a);
         if let Operand::Word(word) = plain.operand {
             self.records.push(word.register);
@@ -253,20 +257,22 @@ impl Arith for Builder<'_> {
     fn recomputes(&self) -> bool {
         self.target.strategy.recomputes()
     }
-    fn enter(&mut self, part: Part) {
+    fn enter(&mut self, part: TracerPart) {
         let depth = |depth: usize| Some(depth as u32);
         match part {
-            Part::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k)),
-            Part::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k)),
-            Part::SampleLight(k) => self.begin(StageName::SampleLight, depth(k)),
-            Part::Shadow(k) => self.begin(StageName::Shadow, depth(k)),
-            Part::Body(number) => self.begin(StageName::Body(number as u32), None),
-            Part::Plane(number) => self.begin(StageName::Plane(number as u32), None),
-            Part::Primitive(number) => self.begin(StageName::Primitive(number as u32), None),
-            Part::Side(k) => self.begin(StageName::Side, depth(k)),
-            Part::Sample => self.begin(StageName::Sample, None),
-            Part::Component(axis) => self.begin(StageName::Component(axis as u32), None),
-            Part::Shade(k) => self.begin(StageName::Shade, depth(k)),
+            TracerPart::GenerateRay(k) => self.begin(StageName::GenerateRay, depth(k)),
+            TracerPart::FindIntersection(k) => self.begin(StageName::FindIntersection, depth(k)),
+            TracerPart::SampleLight(k) => self.begin(StageName::SampleLight, depth(k)),
+            TracerPart::Shadow(k) => self.begin(StageName::Shadow, depth(k)),
+            TracerPart::Body(number) => self.begin(StageName::Body(number as u32), None),
+            TracerPart::Plane(number) => self.begin(StageName::Plane(number as u32), None),
+            TracerPart::Primitive(number) => self.begin(StageName::Primitive(number as u32), None),
+            TracerPart::Ball(number) => self.begin(StageName::Sphere(number as u32), None),
+            TracerPart::Sky(k) => self.begin(StageName::Sky, depth(k)),
+            TracerPart::Side(k) => self.begin(StageName::Side, depth(k)),
+            TracerPart::Sample => self.begin(StageName::Sample, None),
+            TracerPart::Component(axis) => self.begin(StageName::Component(axis as u32), None),
+            TracerPart::Shade(k) => self.begin(StageName::Shade, depth(k)),
         }
     }
     fn leave(&mut self) {
@@ -276,11 +282,11 @@ impl Arith for Builder<'_> {
 
 impl Builder<'_> {
     /// `if when { a } else { b }`
-    pub(super) fn chosen(&mut self, when: Bool, a: Real, b: Real) -> Real {
+    pub(super) fn chosen(&mut self, when: BoolValue, a: RealValue, b: RealValue) -> RealValue {
         let node = match when {
-            Bool::Constant(true) => return a,
-            Bool::Constant(false) => return b,
-            node @ Bool::Node { .. } => node,
+            BoolValue::Constant(true) => return a,
+            BoolValue::Constant(false) => return b,
+            node @ BoolValue::Node { .. } => node,
         };
         if a == b {
             return a;
@@ -299,7 +305,7 @@ impl Builder<'_> {
                 return self.tabulated(table);
             }
         }
-        let apart = |x: Real| Real {
+        let apart = |x: RealValue| RealValue {
             offset: Affine::ZERO,
             bias: 0.0,
             ..x
@@ -310,20 +316,20 @@ impl Builder<'_> {
                 // The same number with two signs.
                 let when = if a.negated { node } else { node.negated() };
                 let signed = self.signed(
-                    Real {
+                    RealValue {
                         negated: false,
                         ..apart(a)
                     },
                     when,
                 );
-                return Real {
+                return RealValue {
                     offset: signed.offset.plus(offset),
                     ..signed
                 };
             }
             if offset != Affine::ZERO {
                 let chosen = self.chosen(node, apart(a), apart(b));
-                return Real {
+                return RealValue {
                     offset: chosen.offset.plus(offset),
                     ..chosen
                 };
@@ -346,7 +352,7 @@ impl Builder<'_> {
         };
         let range = [xr[0].min(yr[0]), xr[1].max(yr[1])];
         let when = self.bit(node);
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let target = self.emit(Op::Select {
             when,
             a: x,

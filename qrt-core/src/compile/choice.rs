@@ -1,7 +1,7 @@
 //! Small unsigned integers: indices of faces, surfaces and cells.
 
 use super::table::joined;
-use super::value::{Bool, Choice, Index, Real, Tabulated};
+use super::value::{BoolValue, Choice, Index, RealValue, Tabulated};
 use super::{Builder, MAX_ADDRESS};
 use qrt_circuit::{Op, Operand, Type, Word};
 use std::rc::Rc;
@@ -96,11 +96,11 @@ impl Builder<'_> {
         Operand::Word(word)
     }
 
-    pub(super) fn chosen_index(&mut self, when: Bool, a: Index, b: Index) -> Index {
+    pub(super) fn chosen_index(&mut self, when: BoolValue, a: Index, b: Index) -> Index {
         let node = match when {
-            Bool::Constant(true) => return a,
-            Bool::Constant(false) => return b,
-            node @ Bool::Node { .. } => node,
+            BoolValue::Constant(true) => return a,
+            BoolValue::Constant(false) => return b,
+            node @ BoolValue::Node { .. } => node,
         };
         if a == b {
             return a;
@@ -138,21 +138,21 @@ impl Builder<'_> {
     }
 
     /// The truth value `holds(a)`.
-    pub(super) fn test(&mut self, a: Index, holds: impl Fn(u32) -> bool) -> Bool {
+    pub(super) fn test(&mut self, a: Index, holds: impl Fn(u32) -> bool) -> BoolValue {
         match self.choice_table(a) {
             Some(table) => {
                 let table = table.map(|entry| f64::from(holds(entry as u32)));
                 self.tabulated_truth(table)
             }
             // Only sample coordinates are too wide for a table, and no code tests them.
-            None => Bool::Constant(false),
+            None => BoolValue::Constant(false),
         }
     }
 
     /// The number `value(a)`. Table entries from `rows` on, which never occur, repeat entry 0.
-    pub(super) fn row(&mut self, a: Index, rows: usize, value: impl Fn(usize) -> f64) -> Real {
+    pub(super) fn row(&mut self, a: Index, rows: usize, value: impl Fn(usize) -> f64) -> RealValue {
         let Some(table) = self.choice_table(a) else {
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         };
         let table = table.map(|entry| {
             let row = entry as usize;

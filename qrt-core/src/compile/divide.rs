@@ -1,22 +1,23 @@
 //! Quotients.
 
-use super::value::{Bool, Real, bits_above};
-use super::{BuildError, Builder, GARBAGE, Garbage, MAX_BITS};
+use super::number::RegisterShape;
+use super::value::{BoolValue, RealValue, bits_above};
+use super::{BuildError, Builder, GARBAGE, Garbage, MAX_BITS, table};
 use qrt_circuit::{Bit, Op, Operand, Type, Word};
 
 /// A quotient of magnitudes.
 struct Quotient {
     /// `floor(|a| / |b|)`, in ulps.
-    value: Real,
+    value: RealValue,
     /// True if the quotient fits its register. Otherwise `value` is meaningless.
-    fits: Bool,
+    fits: BoolValue,
     /// The greatest value of its register, in ulps.
     most: i64,
 }
 
 impl Builder<'_> {
     /// The bound on `|a / b|`: `most`, or the bound that the intervals give if it is smaller.
-    fn quotient_bound(&mut self, a: Real, b: Real, most: f64) -> f64 {
+    fn quotient_bound(&mut self, a: RealValue, b: RealValue, most: f64) -> f64 {
         let (a, b) = (self.range(a), self.range(b));
         let divisor = if b[0] > 0 {
             b[0]
@@ -62,7 +63,7 @@ impl Builder<'_> {
         };
         // The intervals may prove that the quotient fits.
         let fits = if range[1] >> lost <= all {
-            Bool::Constant(true)
+            BoolValue::Constant(true)
         } else {
             self.truth_of(Bit {
                 register: results[1],
@@ -78,7 +79,7 @@ impl Builder<'_> {
     }
 
     /// The unsigned word of a number that is at least 0, and its interval; none without bits.
-    fn unsigned(&mut self, a: Real) -> Option<(Word, [i64; 2])> {
+    fn unsigned(&mut self, a: RealValue) -> Option<(Word, [i64; 2])> {
         let (operand, range) = self.operand(a);
         let word = match operand {
             Operand::Word(word) => word,
@@ -102,7 +103,7 @@ impl Builder<'_> {
 
     /// A register that holds a constant.
     fn constant_word(&mut self, value: i64) -> Word {
-        let (ty, width, signed) = self.shape([value; 2]);
+        let RegisterShape { ty, width, signed } = self.shape([value; 2]);
         let target = self.emit(Op::Add {
             a: Operand::Constant(value),
             b: Operand::Constant(0),
@@ -122,7 +123,7 @@ impl Builder<'_> {
     }
 
     /// `a / b`, clamped: to `±most` if it is a table, otherwise to the greatest value of its register.
-    pub(super) fn over(&mut self, a: Real, b: Real, most: f64) -> Real {
+    pub(super) fn over(&mut self, a: RealValue, b: RealValue, most: f64) -> RealValue {
         if let Some(divisor) = b.as_constant() {
             return self.times_constant(a, 1.0 / divisor);
         }
@@ -132,7 +133,7 @@ impl Builder<'_> {
         let most = self.quotient_bound(a, b, most);
         if !most.is_finite() {
             self.fail(BuildError::UnboundedQuotient);
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         let quotient = |a: f64, b: f64| {
             let quotient = a / b;
@@ -150,42 +151,50 @@ impl Builder<'_> {
         let sign = self.differ(x, y);
         let (a, b) = (self.signed(a, x), self.signed(b, y));
         let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         };
         let range = Self::quotient_range(ar, br, self.fraction());
         let quotient = self.quotient(a, b, most, range);
-        let most = Real::constant(quotient.most as f64 * self.ulp());
+        let most = RealValue::constant(quotient.most as f64 * self.ulp());
         let held = self.chosen(quotient.fits, quotient.value, most);
         self.signed(held, sign)
     }
 
     /// Returns whether `a / b` is at least 0 and fits below `most`, and the quotient if so. A dividend
     /// that is the constant 0 is not ahead: the ray starts on the plane.
-    pub(super) fn ahead_of(&mut self, a: Real, b: Real, most: f64) -> (Bool, Real) {
+    pub(super) fn ahead_of(
+        &mut self,
+        a: RealValue,
+        b: RealValue,
+        most: f64,
+    ) -> (BoolValue, RealValue) {
         if a.as_constant() == Some(0.0) {
-            return (Bool::Constant(false), a);
+            return (BoolValue::Constant(false), a);
         }
         if let Some(divisor) = b.as_constant() {
             if divisor == 0.0 {
                 // The ray is parallel to the plane.
-                return (Bool::Constant(false), Real::constant(0.0));
+                return (BoolValue::Constant(false), RealValue::constant(0.0));
             }
             let quotient = self.times_constant(a, 1.0 / divisor);
             let behind = self.negative_sign(quotient);
-            let reach = Real::constant(self.farthest(most));
+            let reach = RealValue::constant(self.farthest(most));
             let near = self.is_less(quotient, reach);
             return (self.both(behind.negated(), near), quotient);
+        }
+        if let Some(tabulated) = self.tabulated_ahead(a, b, most) {
+            return tabulated;
         }
         // Flip both signs where `b` is negative, so that the divisor is positive.
         let sign = self.negative_sign(b);
         let (a, b) = (self.signed(a, sign), self.signed(b, sign));
         let behind = self.negative_sign(a);
         let (Some((a, ar)), Some((b, br))) = (self.unsigned(a), self.unsigned(b)) else {
-            return (Bool::Constant(false), Real::constant(0.0));
+            return (BoolValue::Constant(false), RealValue::constant(0.0));
         };
         // A negative dividend is read without its sign bit. Its quotient may exceed every quotient
         // ahead.
-        let range = if behind == Bool::Constant(false) {
+        let range = if behind == BoolValue::Constant(false) {
             Self::quotient_range(ar, br, self.fraction())
         } else {
             [0, i64::MAX]
@@ -193,6 +202,34 @@ impl Builder<'_> {
         let quotient = self.quotient(a, b, most, range);
         let ahead = self.both(behind.negated(), quotient.fits);
         (ahead, self.rounded_down(quotient.value))
+    }
+
+    /// [`Builder::ahead_of`] as tables, if `a` and `b` are tables and arithmetic would cost more. A
+    /// dividend that rounds to 0 is not ahead, and the quotient is rounded to nearest.
+    fn tabulated_ahead(
+        &mut self,
+        a: RealValue,
+        b: RealValue,
+        most: f64,
+    ) -> Option<(BoolValue, RealValue)> {
+        if !self.target.passes.tabulate {
+            return None;
+        }
+        let (x, y) = (self.table_of(a)?, self.table_of(b)?);
+        let (farthest, half) = (self.farthest(most), 0.5 * self.ulp());
+        let is_ahead = move |a: f64, b: f64| {
+            let quotient = a / b;
+            a.abs() >= half && quotient > 0.0 && quotient <= farthest
+        };
+        let cost = self.fraction() * self.fraction();
+        let ahead = table::joined(&x, &y, cost, |a, b| f64::from(u8::from(is_ahead(a, b))))?;
+        let quotient = table::joined(
+            &x,
+            &y,
+            cost,
+            |a, b| if is_ahead(a, b) { a / b } else { 0.0 },
+        )?;
+        Some((self.tabulated_truth(ahead), self.tabulated(quotient)))
     }
 
     /// The greatest number of the register that holds quotients up to `most`.

@@ -1,6 +1,7 @@
 //! The draft of a program: the data that passes work on.
 
-use super::known::{Known, QuickMap, locked};
+use super::known::{Known, locked};
+use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{Block, BlockId, Instruction, Op, Register, RegisterId, Word};
 use std::sync::Mutex;
 

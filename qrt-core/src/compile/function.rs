@@ -5,7 +5,7 @@
 //! until the greatest error at their quarter points is at most half a unit in the last place, or
 //! until there are `2^MOST_PIECES` pieces.
 
-use super::value::{Real, Tabulated};
+use super::value::{RealValue, Tabulated};
 use super::{BuildError, Builder, MAX_BITS};
 use qrt_circuit::{Operand, Word};
 use std::cell::Cell;
@@ -43,13 +43,13 @@ fn evaluate([c0, c1, c2]: [f64; 3], t: f64) -> f64 {
 
 impl Builder<'_> {
     /// `f(a)`, for a function `f` that is smooth except at isolated points.
-    pub(super) fn smooth(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Real {
+    pub(super) fn smooth(&mut self, a: RealValue, f: impl Fn(f64) -> f64) -> RealValue {
         if let Some(constant) = a.as_constant() {
             let value = f(constant);
             if value.is_infinite() {
                 self.fail(BuildError::UnboundedFunction);
             }
-            return Real::constant(value);
+            return RealValue::constant(value);
         }
         if let Some(table) = self.tabulate_one(a, &f) {
             return table;
@@ -58,18 +58,23 @@ impl Builder<'_> {
         let ulp = self.ulp();
         match operand {
             Operand::Word(word) => self.fitted(word, range, |x| f(x as f64 * ulp)),
-            Operand::Constant(value) => Real::constant(f(value as f64 * ulp)),
+            Operand::Constant(value) => RealValue::constant(f(value as f64 * ulp)),
         }
     }
 
     /// `f(word)`, if the values of `word` are in `range`.
-    pub(super) fn fitted(&mut self, word: Word, range: [i64; 2], f: impl Fn(i64) -> f64) -> Real {
+    pub(super) fn fitted(
+        &mut self,
+        word: Word,
+        range: [i64; 2],
+        f: impl Fn(i64) -> f64,
+    ) -> RealValue {
         let word = Word { shift: 0, ..word };
         let bits = word.width;
         if bits > MAX_BITS {
             let what = "a function's operand";
             self.too_many_bits(what, bits);
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         let sign = word.signed;
         // The number that the word's bits, `code`, stand for, clamped to `range`: codes outside do
@@ -162,7 +167,7 @@ impl Builder<'_> {
     }
 
     /// `a^b` for `a >= 0`.
-    pub(super) fn power(&mut self, a: Real, b: Real) -> Real {
+    pub(super) fn power(&mut self, a: RealValue, b: RealValue) -> RealValue {
         if let Some(exponent) = b.as_constant() {
             return self.smooth(a, |a| libm::pow(a.max(0.0), exponent));
         }
@@ -177,7 +182,7 @@ impl Builder<'_> {
     }
 
     /// The angle of the vector (x, y), in `-pi ..= pi`.
-    pub(super) fn angle(&mut self, y: Real, x: Real) -> Real {
+    pub(super) fn angle(&mut self, y: RealValue, x: RealValue) -> RealValue {
         if let Some(table) = self.tabulate_pair(y, x, u32::MAX, libm::atan2) {
             return table;
         }
@@ -186,10 +191,10 @@ impl Builder<'_> {
         let (least, most) = (self.lesser(width, height), self.greater(width, height));
         let ratio = self.over(least, most, 1.0);
         let angle = self.smooth(ratio, libm::atan);
-        let other = self.plus(Real::constant(FRAC_PI_2), angle.negative());
+        let other = self.plus(RealValue::constant(FRAC_PI_2), angle.negative());
         let angle = self.chosen(steep, other, angle);
         let left = self.negative_sign(x);
-        let other = self.plus(Real::constant(PI), angle.negative());
+        let other = self.plus(RealValue::constant(PI), angle.negative());
         let angle = self.chosen(left, other, angle);
         let below = self.negative_sign(y);
         self.signed(angle, below)

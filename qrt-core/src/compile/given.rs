@@ -1,17 +1,37 @@
 //! Inputs of a program in registers, and their comparison with computed values.
 
-use super::value::{Affine, Bool, Index, Real, Value};
+use super::number::RegisterShape;
+use super::value::{Affine, BoolValue, Index, RealValue, Value};
 use super::{Bit, Builder, Op, Operand, RegisterId, Role, StageName, Type};
 
 impl Builder<'_> {
     /// Creates an input register for a number from 0 to `most`. Returns the register and the
     /// number.
-    pub(crate) fn given_number(&mut self, name: &str, role: Role, most: f64) -> (RegisterId, Real) {
+    pub(crate) fn given_number(
+        &mut self,
+        name: &str,
+        role: Role,
+        most: f64,
+    ) -> (RegisterId, RealValue) {
         let most = self.rounded(most);
-        let (ty, width, signed) = self.shape([0, most]);
+        let RegisterShape { ty, width, signed } = self.shape([0, most]);
         let register = self.outside(name, ty, role, width);
         let number = self.value(Value {
             range: [0, most],
+            word: Some(Self::whole(register, width, signed)),
+            table: None,
+        });
+        (register, number)
+    }
+
+    /// An input register that holds a number from `-most` to `most`, and the number.
+    #[cfg(test)]
+    pub(crate) fn given_signed(&mut self, name: &str, most: f64) -> (RegisterId, RealValue) {
+        let most = self.rounded(most);
+        let RegisterShape { ty, width, signed } = self.shape([-most, most]);
+        let register = self.outside(name, ty, Role::Id, width);
+        let number = self.value(Value {
+            range: [-most, most],
             word: Some(Self::whole(register, width, signed)),
             table: None,
         });
@@ -32,10 +52,10 @@ impl Builder<'_> {
     }
 
     /// `a < b`
-    pub(crate) fn index_less(&mut self, a: Index, b: Index) -> Bool {
+    pub(crate) fn index_less(&mut self, a: Index, b: Index) -> BoolValue {
         let (a, b) = (self.choice_operand(a), self.choice_operand(b));
         if let (Operand::Constant(a), Operand::Constant(b)) = (a, b) {
-            return Bool::Constant(a < b);
+            return BoolValue::Constant(a < b);
         }
         let target = self.emit(Op::Less {
             a,
@@ -50,8 +70,8 @@ impl Builder<'_> {
     }
 
     /// The bit that holds the truth value `a`; none if `a` is the same on every path.
-    pub(crate) fn truth_bit(&mut self, a: Bool) -> Option<Bit> {
-        matches!(a, Bool::Node { .. }).then(|| self.bit(a))
+    pub(crate) fn truth_bit(&mut self, a: BoolValue) -> Option<Bit> {
+        matches!(a, BoolValue::Node { .. }).then(|| self.bit(a))
     }
 
     /// Opens the block of the comparison with the nearest hit so far.
@@ -66,11 +86,11 @@ impl Builder<'_> {
     /// its offset.
     pub(super) fn beside(
         &mut self,
-        value: Real,
+        value: RealValue,
         table: &[[f64; 1]],
         row: Index,
         sign: f64,
-    ) -> (Real, Real) {
+    ) -> (RealValue, RealValue) {
         let outward = sign * self.ulp();
         if !value.offset.is_constant() {
             let bound = self.row(row, table.len(), |row| {
@@ -82,7 +102,7 @@ impl Builder<'_> {
         let bound = self.row(row, table.len(), |row| {
             table.get(row).map_or(0.0, |[bound]| bound + moved)
         });
-        let bare = Real {
+        let bare = RealValue {
             offset: Affine::ZERO,
             bias: 0.0,
             ..value

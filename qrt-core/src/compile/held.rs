@@ -1,6 +1,6 @@
 //! Values in registers of their own, in the format that the caller specifies.
 
-use super::value::{Bool, Index, Real};
+use super::value::{BoolValue, Index, RealValue};
 use super::{Builder, Op, Operand, RegisterId, StageName, Type, Word};
 use crate::tracer::Segment;
 
@@ -19,7 +19,7 @@ impl<'a> Builder<'a> {
     /// The register keeps the lowest `width` bits; the caller makes sure that the number fits.
     pub(crate) fn number_in(
         &mut self,
-        a: Real,
+        a: RealValue,
         (ty, width): (Type, u32),
         shift: i32,
     ) -> RegisterId {
@@ -33,10 +33,10 @@ impl<'a> Builder<'a> {
     }
 
     /// Copies the truth value to a register of its own.
-    pub(crate) fn truth_in(&mut self, a: Bool) -> RegisterId {
+    pub(crate) fn truth_in(&mut self, a: BoolValue) -> RegisterId {
         let target = (Type::Bool, 1);
-        let Bool::Node { .. } = a else {
-            let value = i64::from(a == Bool::Constant(true));
+        let BoolValue::Node { .. } = a else {
+            let value = i64::from(a == BoolValue::Constant(true));
             return self.own(Operand::Constant(value), target);
         };
         let when = self.bit(a);

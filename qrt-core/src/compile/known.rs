@@ -1,8 +1,8 @@
 //! Cached results about operations: the plans and figures that passes compute.
 
-use qrt_circuit::lower::{self, Figures};
+use qrt_circuit::lower::{self, OpFigures, QuickMap};
 use qrt_circuit::{Cores, KnownSums, Multiples, Op, Register, RegisterId};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -19,13 +19,10 @@ pub(crate) struct Known {
     /// The figures of operations that are alike.
     pub(crate) alike: lower::KnownFigures,
     /// Figures of operations that no pass changes, by the first register that the operation computes.
-    pub(super) of_recorded: Vec<Option<Figures>>,
+    pub(super) of_recorded: Vec<Option<OpFigures>>,
     /// Figures of tables and products, by the registers that they compute.
-    of_merged: QuickMap<Box<[RegisterId]>, Figures>,
+    of_merged: QuickMap<Box<[RegisterId]>, OpFigures>,
 }
-
-/// A hash map for trusted keys: no protection against chosen collisions.
-pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<lower::Quick>>;
 
 /// A hash set for trusted keys.
 pub(super) type QuickSet<T> = HashSet<T, BuildHasherDefault<lower::Quick>>;
@@ -49,7 +46,7 @@ impl Known {
         &mut self,
         ops: impl Iterator<Item = &'a Op>,
         registers: &[Register],
-    ) -> Vec<Figures> {
+    ) -> Vec<OpFigures> {
         let mut figures = Vec::new();
         let mut unknown = Vec::new();
         for op in ops {

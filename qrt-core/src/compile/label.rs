@@ -87,6 +87,10 @@ pub enum StageName {
     Plane(u32),
     /// One primitive (by number), within a search.
     Primitive(u32),
+    /// One sphere (by its face's number), within a search.
+    Sphere(u32),
+    /// The light of the sky at the end of a ray.
+    Sky,
     /// The side on which a ray meets a surface.
     Side,
     /// A sampled direction in the local frame, within a ray.
@@ -120,6 +124,8 @@ impl StageName {
             Self::Body(_) => "body",
             Self::Plane(_) => "plane",
             Self::Primitive(_) => "primitive",
+            Self::Sphere(_) => "sphere",
+            Self::Sky => "sky",
             Self::Component(axis) => ["x", "y", "z"].get(axis as usize).unwrap_or(&"component"),
             Self::Oracle => "oracle",
             Self::GenerateRay => "generate_ray",
@@ -145,9 +151,10 @@ impl fmt::Display for StageName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kind())?;
         match self {
-            Self::Plane(number) | Self::Primitive(number) | Self::Body(number) => {
-                write!(f, " {number}")
-            }
+            Self::Plane(number)
+            | Self::Primitive(number)
+            | Self::Sphere(number)
+            | Self::Body(number) => write!(f, " {number}"),
             _ => Ok(()),
         }
     }
@@ -164,7 +171,7 @@ pub struct Label {
 
 impl Label {
     /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
-    const PLAIN: [StageName; 13] = [
+    const PLAIN: [StageName; 14] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -178,6 +185,7 @@ impl Label {
         StageName::SampleLight,
         StageName::Shadow,
         StageName::Predicate,
+        StageName::Sky,
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.
@@ -195,6 +203,7 @@ impl Label {
                 0xfe => StageName::Primitive(number),
                 0xfd => StageName::Component(number),
                 0xfc => StageName::Body(number),
+                0xfb => StageName::Sphere(number),
                 kind => plain(kind).unwrap_or(StageName::Oracle),
             },
             depth: depth.checked_sub(1),
@@ -209,6 +218,7 @@ impl Label {
             StageName::Primitive(number) => (0xfe, number),
             StageName::Component(number) => (0xfd, number),
             StageName::Body(number) => (0xfc, number),
+            StageName::Sphere(number) => (0xfb, number),
             plain => {
                 let place = Self::PLAIN.iter().position(|&known| known == plain);
                 (place.unwrap_or(0) as u64, 0)
@@ -260,6 +270,7 @@ impl PixelWord {
                 let axis = ["u", "v"][coordinate.axis as usize];
                 let square = match coordinate.square {
                     Square::Ray => "ray",
+                    Square::Light if coordinate.depth == 0 => "lens",
                     Square::Light => "light",
                 };
                 (format!("{square}{}.shift.{axis}", coordinate.depth), bits)
@@ -303,6 +314,8 @@ mod tests {
             StageName::Primitive(65_536),
             StageName::Component(2),
             StageName::Body(7),
+            StageName::Sphere(484),
+            StageName::Sky,
         ];
         for stage in Label::PLAIN.into_iter().chain(numbered) {
             for depth in [None, Some(0), Some(1_000)] {

@@ -45,20 +45,19 @@ mod value;
 
 pub(crate) use known::{Known, locked};
 pub use label::{Label, PixelWord, Role, StageName};
-pub use names::{NamedPlace, Place};
+pub use names::{NamedPlace, ValuePlace};
 pub(crate) use passes::assemble;
 pub use strategy::{Garbage, Scope, Strategy};
-pub use value::{Bool, Index, Real};
+pub use value::{BoolValue, Index, RealValue};
 
-use crate::tracer::{Coordinate, Named, Segment, WideValue};
+use crate::tracer::{Coordinate, Segment, WideValue};
 use draft::Draft;
-use names::Nameable;
-use qrt_circuit::lower::Quick;
+use names::NamedValue;
+use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::syntax::{Circuit, What};
 use std::collections::HashMap;
-use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 use value::{Affine, Choice, Truth, Value};
 
@@ -143,6 +142,8 @@ pub struct Target<'a> {
     pub points: &'a PathPoints,
     /// Columns and rows of the film.
     pub film: [u32; 2],
+    /// The only pixel (column, row) that the program is for; none if it is for all pixels of the film.
+    pub pixel: Option<[u32; 2]>,
     /// One more than the greatest number of a face that a ray can meet.
     pub faces: u32,
     /// The passes that make the program cheaper.
@@ -183,6 +184,12 @@ impl Passes {
         merge: false,
         multiples: false,
     };
+
+    /// True if programs under both sets of passes are assembled from the same recording. The other
+    /// passes change a recorded program.
+    pub(crate) fn same_recording(self, other: Self) -> bool {
+        (self.share, self.tabulate) == (other.share, other.tabulate)
+    }
 }
 
 /// Records the tracer as a program: see [the module](self).
@@ -199,11 +206,11 @@ pub struct Builder<'a> {
     values: Vec<Value>,
     truths: Vec<Truth>,
     choices: Vec<Choice>,
-    known: HashMap<Op<RegisterId, u32>, usize, BuildHasherDefault<Quick>>,
+    known: QuickMap<Op<RegisterId, u32>, usize>,
     coordinates: HashMap<Coordinate, Index>,
     /// By width: the entries 0, 1, 2, ... of the table of an integer whose address is its own bits.
     counted: HashMap<u32, Rc<[f64]>>,
-    names: Vec<(Named, usize, Nameable)>,
+    names: Vec<NamedValue>,
     /// By ray: its start and its hit, as the tracer reported them.
     segments: Vec<Segment<Self>>,
     /// The surface whose weight is being computed.
@@ -247,7 +254,7 @@ impl<'a> Builder<'a> {
             values: Vec::new(),
             truths: Vec::new(),
             choices: Vec::new(),
-            known: HashMap::default(),
+            known: QuickMap::default(),
             coordinates: HashMap::new(),
             counted: HashMap::new(),
             names: Vec::new(),
@@ -262,21 +269,21 @@ impl<'a> Builder<'a> {
     }
 
     /// Number of fraction bits of every number.
-    pub fn fraction_bits(&self) -> u32 {
+    pub(crate) fn fraction_bits(&self) -> u32 {
         self.target.fraction
     }
 
     /// The register that holds `a`, its sign and constant included, and its interval in units of
     /// the last place.
-    pub fn operand_of(&mut self, a: Real) -> (Operand, [i64; 2]) {
+    pub(crate) fn operand_of(&mut self, a: RealValue) -> (Operand, [i64; 2]) {
         self.operand(a)
     }
 
     /// The same number in a register of its own, sign and constant included.
-    pub fn held(&mut self, a: Real) -> Real {
+    pub fn held(&mut self, a: RealValue) -> RealValue {
         match self.operand(a) {
             (Operand::Word(word), range) => self.computed(word, range),
-            (Operand::Constant(value), _) => Real::constant(value as f64 * self.ulp()),
+            (Operand::Constant(value), _) => RealValue::constant(value as f64 * self.ulp()),
         }
     }
 

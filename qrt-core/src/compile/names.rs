@@ -1,6 +1,6 @@
 //! Names of values in the layout of registers.
 
-use super::value::{Bool, Index, Real};
+use super::value::{BoolValue, Index, RealValue};
 use super::{Affine, Builder};
 use crate::tracer::{Named, Quantity};
 use qrt_circuit::{Bit, RegisterId, Word};
@@ -10,9 +10,18 @@ use std::fmt;
 /// A value that the tracer has a name for.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Nameable {
-    Real(Real),
-    Bool(Bool),
+    Real(RealValue),
+    Bool(BoolValue),
     Index(Index),
+}
+
+/// A component of a value that the tracer has a name for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NamedValue {
+    pub(super) name: Named,
+    /// The component of a vector: 0, 1 or 2.
+    pub(super) component: usize,
+    pub(super) value: Nameable,
 }
 
 /// A register, or a part of one, that the tracer has a name for.
@@ -23,7 +32,7 @@ pub struct NamedPlace {
     /// The component of a vector: 0, 1 or 2.
     pub component: usize,
     /// The register that holds the value, and how it is read.
-    pub place: Place,
+    pub place: ValuePlace,
 }
 
 impl NamedPlace {
@@ -32,7 +41,7 @@ impl NamedPlace {
         let names = match self.name.quantity {
             Quantity::Origin | Quantity::Direction => ["x", "y", "z"],
             Quantity::Throughput => ["r", "g", "b"],
-            Quantity::Sample | Quantity::Lamp => ["u", "v", ""],
+            Quantity::Sample | Quantity::Lamp | Quantity::Lens => ["u", "v", ""],
             Quantity::Distance | Quantity::Face | Quantity::Found => return None,
         };
         names.get(self.component).copied()
@@ -53,7 +62,7 @@ impl fmt::Display for NamedPlace {
 
 /// The place of a named value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum ValuePlace {
     /// `-1^negated word 2^-fraction + offset[0] + offset[1] column + offset[2] row`
     Number {
         /// The bits that are read.
@@ -74,7 +83,11 @@ impl Builder<'_> {
     pub(super) fn name(&mut self, name: Named, values: impl IntoIterator<Item = Nameable>) {
         let values = values.into_iter().enumerate();
         self.names
-            .extend(values.map(|(component, value)| (name, component, value)));
+            .extend(values.map(|(component, value)| NamedValue {
+                name,
+                component,
+                value,
+            }));
     }
 
     /// Named values that are in registers. A value is left out if it is in no register: a table
@@ -83,19 +96,23 @@ impl Builder<'_> {
         let samples = self.coordinates.iter().map(|(coordinate, &index)| {
             let quantity = match coordinate.square {
                 Square::Ray => Quantity::Sample,
+                Square::Light if coordinate.depth == 0 => Quantity::Lens,
                 Square::Light => Quantity::Lamp,
             };
             let depth = coordinate.depth;
             let name = Named { depth, quantity };
-            (name, coordinate.axis as usize, Nameable::Index(index))
+            NamedValue {
+                name,
+                component: coordinate.axis as usize,
+                value: Nameable::Index(index),
+            }
         });
         let all = self.names.iter().copied().chain(samples);
-        let placed = all.filter_map(|(name, component, value)| {
-            let place = self.place_of(value)?;
+        let placed = all.filter_map(|named| {
             Some(NamedPlace {
-                name,
-                component,
-                place,
+                name: named.name,
+                component: named.component,
+                place: self.place_of(named.value)?,
             })
         });
         let mut placed: Vec<_> = placed.collect();
@@ -103,31 +120,31 @@ impl Builder<'_> {
         placed
     }
 
-    fn place_of(&self, value: Nameable) -> Option<Place> {
+    fn place_of(&self, value: Nameable) -> Option<ValuePlace> {
         match value {
             Nameable::Real(real) => {
                 let word = self.values[real.node? as usize].word?;
                 let Affine { constant, along } = real.offset;
-                Some(Place::Number {
+                Some(ValuePlace::Number {
                     word,
                     negated: real.negated,
                     offset: [constant, along[0], along[1]],
                 })
             }
-            Nameable::Bool(Bool::Node { node, inverted }) => {
+            Nameable::Bool(BoolValue::Node { node, inverted }) => {
                 let bit = self.truths[node as usize].bit?;
                 let inverted = bit.inverted != inverted;
-                Some(Place::Truth(Bit { inverted, ..bit }))
+                Some(ValuePlace::Truth(Bit { inverted, ..bit }))
             }
             Nameable::Index(Index::Node(node)) => {
-                self.choices[node as usize].word.map(Place::Index)
+                self.choices[node as usize].word.map(ValuePlace::Index)
             }
-            Nameable::Bool(Bool::Constant(_)) | Nameable::Index(Index::Constant(_)) => None,
+            Nameable::Bool(BoolValue::Constant(_)) | Nameable::Index(Index::Constant(_)) => None,
         }
     }
 }
 
-impl Place {
+impl ValuePlace {
     /// The same place, with its register renamed by `rename`.
     pub(crate) fn renamed(self, rename: impl FnOnce(RegisterId) -> RegisterId) -> Self {
         match self {

@@ -1,6 +1,6 @@
 //! Fixed-point numbers: their intervals, their bits, and their sums.
 
-use super::value::{Affine, Real, Tabulated, Value, bits_of};
+use super::value::{Affine, RealValue, Tabulated, Value, bits_of};
 use super::{Builder, MAX_BITS, PixelWord};
 use qrt_circuit::{Op, Operand, Type, Word};
 
@@ -15,6 +15,14 @@ pub(super) struct Plain {
 
 pub(super) fn negative([low, high]: [i64; 2]) -> [i64; 2] {
     [high, low].map(i64::saturating_neg)
+}
+
+/// The shape of a register that holds a number.
+pub(super) struct RegisterShape {
+    pub(super) ty: Type,
+    pub(super) width: u32,
+    /// True if the top bit is a sign.
+    pub(super) signed: bool,
 }
 
 impl Builder<'_> {
@@ -52,16 +60,16 @@ impl Builder<'_> {
         self.too_many_bits(what, bits);
     }
 
-    pub(super) fn value(&mut self, value: Value) -> Real {
+    pub(super) fn value(&mut self, value: Value) -> RealValue {
         if value.range[0] == value.range[1] {
-            return Real::constant(value.range[0] as f64 * self.ulp());
+            return RealValue::constant(value.range[0] as f64 * self.ulp());
         }
         self.values.push(value);
-        Real::node(self.values.len() as u32 - 1)
+        RealValue::node(self.values.len() as u32 - 1)
     }
 
     /// The number that `word` holds, which lies in `range`.
-    pub(super) fn computed(&mut self, word: Word, range: [i64; 2]) -> Real {
+    pub(super) fn computed(&mut self, word: Word, range: [i64; 2]) -> RealValue {
         let register = &mut self.registers[word.register.index()];
         if word.width == register.width && word.shift == 0 {
             // The defining operation counts as the first reader of the whole register: its range is
@@ -75,14 +83,18 @@ impl Builder<'_> {
         })
     }
 
-    /// Type and width of a register for `range`, and whether it is signed.
-    pub(super) fn shape(&mut self, range: [i64; 2]) -> (Type, u32, bool) {
+    /// The shape of a register for `range`.
+    pub(super) fn shape(&mut self, range: [i64; 2]) -> RegisterShape {
         let (bits, signed) = bits_of(range);
-        (self.number_type(signed), bits.max(1), signed)
+        RegisterShape {
+            ty: self.number_type(signed),
+            width: bits.max(1),
+            signed,
+        }
     }
 
     /// The interval of a number, in ulps.
-    pub(super) fn range(&mut self, a: Real) -> [i64; 2] {
+    pub(super) fn range(&mut self, a: RealValue) -> [i64; 2] {
         let node = a
             .node
             .map_or([0, 0], |node| self.values[node as usize].range);
@@ -103,7 +115,7 @@ impl Builder<'_> {
     }
 
     /// A number as an operand. Its sign stays apart where applying it would cost an operation.
-    pub(super) fn plain(&mut self, a: Real) -> Plain {
+    pub(super) fn plain(&mut self, a: RealValue) -> Plain {
         let whole = |operand, range| Plain {
             operand,
             range,
@@ -153,7 +165,7 @@ impl Builder<'_> {
     }
 
     /// A number as an operand, its sign included.
-    pub(super) fn operand(&mut self, a: Real) -> (Operand, [i64; 2]) {
+    pub(super) fn operand(&mut self, a: RealValue) -> (Operand, [i64; 2]) {
         let plain = self.plain(a);
         match plain.operand {
             Operand::Word(word) if plain.negated => {
@@ -167,7 +179,7 @@ impl Builder<'_> {
 
     /// `a ± b`, which lies in `range`.
     pub(super) fn sum(&mut self, a: Operand, b: Operand, subtract: bool, range: [i64; 2]) -> Word {
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let target = self.emit(Op::Add {
             a,
             b,
@@ -179,7 +191,7 @@ impl Builder<'_> {
 
     fn loaded(&mut self, offset: Affine) -> (Word, [i64; 2]) {
         let range = self.offset_range(offset);
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let parameter = self.parameter(PixelWord::Affine {
             constant: offset.constant,
             along: offset.along,
@@ -193,7 +205,7 @@ impl Builder<'_> {
         (Self::whole(target, width, signed), range)
     }
 
-    pub(super) fn plus(&mut self, a: Real, b: Real) -> Real {
+    pub(super) fn plus(&mut self, a: RealValue, b: RealValue) -> RealValue {
         let offset = a.offset.plus(b.offset);
         let bias = a.bias + b.bias;
         let (Some(x), Some(y)) = (a.node, b.node) else {
@@ -201,7 +213,7 @@ impl Builder<'_> {
                 Some(_) => (a.node, a.negated),
                 None => (b.node, b.negated),
             };
-            return Real {
+            return RealValue {
                 node,
                 negated,
                 offset,
@@ -213,14 +225,14 @@ impl Builder<'_> {
         }
         if x == y {
             if a.negated != b.negated {
-                return Real::fixed(offset);
+                return RealValue::fixed(offset);
             }
-            let bare = Real {
+            let bare = RealValue {
                 offset: Affine::ZERO,
                 ..a
             };
             let twice = self.times_constant(bare, 2.0);
-            return Real {
+            return RealValue {
                 offset,
                 bias,
                 ..twice
@@ -248,7 +260,7 @@ impl Builder<'_> {
         } else {
             sum
         };
-        Real {
+        RealValue {
             offset: sum.offset.plus(offset),
             bias,
             ..sum

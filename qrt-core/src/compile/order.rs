@@ -1,12 +1,13 @@
 //! Signs, minima and maxima, and known bounds of numbers.
 
 use super::Builder;
+use super::number::RegisterShape;
 use super::number::negative;
-use super::value::{Affine, Bool, Real, bits_of};
+use super::value::{Affine, BoolValue, RealValue, bits_of};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Builder<'_> {
-    pub(super) fn magnitude(&mut self, a: Real) -> Real {
+    pub(super) fn magnitude(&mut self, a: RealValue) -> RealValue {
         let [low, high] = self.range(a);
         if low >= 0 {
             return a;
@@ -22,11 +23,11 @@ impl Builder<'_> {
     }
 
     /// `if when { -a } else { a }`
-    pub(super) fn signed(&mut self, a: Real, when: Bool) -> Real {
+    pub(super) fn signed(&mut self, a: RealValue, when: BoolValue) -> RealValue {
         let when = match when {
-            Bool::Constant(true) => return a.negative(),
-            Bool::Constant(false) => return a,
-            node @ Bool::Node { .. } => node,
+            BoolValue::Constant(true) => return a.negative(),
+            BoolValue::Constant(false) => return a,
+            node @ BoolValue::Node { .. } => node,
         };
         let plain = self.plain(a);
         let Operand::Word(word) = plain.operand else {
@@ -46,7 +47,7 @@ impl Builder<'_> {
                 high.max(low.saturating_neg()),
             ]
         };
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let target = self.emit(Op::Negate {
             a: word,
             when: bit,
@@ -55,7 +56,7 @@ impl Builder<'_> {
         self.computed(Self::whole(target, width, signed), range)
     }
 
-    pub(super) fn greater(&mut self, a: Real, b: Real) -> Real {
+    pub(super) fn greater(&mut self, a: RealValue, b: RealValue) -> RealValue {
         let (x, y) = (self.range(a), self.range(b));
         if x[0] >= y[1] {
             return a;
@@ -71,13 +72,13 @@ impl Builder<'_> {
         self.narrowed(chosen, [x[0].max(y[0]), x[1].max(y[1])])
     }
 
-    pub(super) fn lesser(&mut self, a: Real, b: Real) -> Real {
+    pub(super) fn lesser(&mut self, a: RealValue, b: RealValue) -> RealValue {
         let greater = self.greater(a.negative(), b.negative());
         greater.negative()
     }
 
     /// The same number, known to lie in `range`.
-    pub(super) fn narrowed(&mut self, a: Real, range: [i64; 2]) -> Real {
+    pub(super) fn narrowed(&mut self, a: RealValue, range: [i64; 2]) -> RealValue {
         if a.offset != Affine::ZERO {
             return a;
         }
@@ -102,7 +103,7 @@ impl Builder<'_> {
     /// The same number, known to lie within `low ..= high` up to rounding. It is read in the lowest
     /// bits that hold this interval. The bits for the bounds 1 and -1 hold at least one unit in the
     /// last place more.
-    pub(super) fn bounded(&mut self, a: Real, low: f64, high: f64) -> Real {
+    pub(super) fn bounded(&mut self, a: RealValue, low: f64, high: f64) -> RealValue {
         let range = self.range(a);
         let wanted = [self.rounded(low), self.rounded(high)];
         let (bits, signed) = bits_of([wanted[0].min(range[0].min(0).signum()), wanted[1]]);

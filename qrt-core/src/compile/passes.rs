@@ -10,9 +10,9 @@
 //!    gates, [`super::recompute`] orders the instructions.
 
 use super::draft::{Draft, Renamed};
-use super::known::{Known, QuickMap, locked};
-use super::{Label, Passes, PixelWord, Recorded, Strategy, recompute};
-use qrt_circuit::lower::{self, Figures};
+use super::known::{Known, locked};
+use super::{Label, Passes, PixelWord, Recorded, StageName, Strategy, recompute};
+use qrt_circuit::lower::{self, OpFigures, QuickMap};
 use qrt_circuit::{Bit, BlockId, Instruction, Multiples, Op, Program, RegisterId, Style, Word};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
@@ -36,6 +36,14 @@ pub(super) fn needed(draft: &mut Draft, roots: &[RegisterId]) {
     draft.ops.retain(|_| keep.next().unwrap_or(false));
 }
 
+/// A table that replaces others.
+struct MergedTable {
+    /// The place before which it is inserted.
+    start: usize,
+    op: Op,
+    block: BlockId,
+}
+
 /// Merges tables that have the same address and can run at the place of the first one.
 pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
     let mut defined: Vec<Option<usize>> = vec![None; draft.registers.len()];
@@ -52,8 +60,7 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
             groups.entry(key).or_default().push(place);
         }
     }
-    // Each merged table, after the place before which it is inserted.
-    let mut inserted: Vec<(usize, Op, BlockId)> = Vec::new();
+    let mut inserted: Vec<MergedTable> = Vec::new();
     let mut gone = vec![false; draft.ops.len()];
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
@@ -117,14 +124,16 @@ pub(super) fn merge_tables(draft: &mut Draft, known_of: &Mutex<Known>) {
             targets,
             scratch,
         };
-        inserted.push((start, op, block));
+        inserted.push(MergedTable { start, op, block });
     }
-    choose_lows(inserted.iter_mut().map(|(_, op, _)| op), known_of);
-    inserted.sort_by_key(|&(place, ..)| place);
+    choose_lows(inserted.iter_mut().map(|table| &mut table.op), known_of);
+    inserted.sort_by_key(|table| table.start);
     let mut inserted = inserted.into_iter().peekable();
     let mut merged = Vec::with_capacity(draft.ops.len());
     for (place, op) in std::mem::take(&mut draft.ops).into_iter().enumerate() {
-        while let Some((_, op, block)) = inserted.next_if(|&(before, ..)| before <= place) {
+        while let Some(MergedTable { op, block, .. }) =
+            inserted.next_if(|table| table.start <= place)
+        {
             merged.push((op, block));
         }
         if !gone[place] {
@@ -161,8 +170,10 @@ fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known
     }
 }
 
-/// The largest number of products that are computed together.
+/// The largest number of products that are computed together, and the same for products with constants of
+/// spheres: there are many, and they are a third of a search.
 const TOGETHER: usize = 12;
+const OF_SPHERES: usize = 48;
 
 /// Computes products of one number with constants from shared sums, where that is cheaper.
 fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {
@@ -182,8 +193,22 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) 
     }
     let mut groups: Vec<((Word, _), Vec<usize>)> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
-    let groups = groups.iter().map(|(_, places)| places);
-    let chunks: Vec<&[usize]> = groups.flat_map(|places| places.chunks(TOGETHER)).collect();
+    let of_sphere = |place: &usize| {
+        let (_, block) = &draft.ops[*place];
+        matches!(
+            Label::from_block(&draft.blocks[block.index()]).stage,
+            StageName::Sphere(_)
+        )
+    };
+    let chunks = groups.iter().flat_map(|(_, places)| {
+        let most = if places.iter().any(of_sphere) {
+            OF_SPHERES
+        } else {
+            TOGETHER
+        };
+        places.chunks(most)
+    });
+    let chunks: Vec<&[usize]> = chunks.collect();
     let mut known = locked(known);
     learn_together(draft, &chunks, &mut known);
     let mut gone = vec![false; draft.ops.len()];
@@ -247,7 +272,7 @@ fn learn_together(draft: &Draft, chunks: &[&[usize]], known: &mut Known) {
             }
         }
     }
-    let toffoli = |figures: Figures| figures.costs[0].toffoli;
+    let toffoli = |figures: OpFigures| figures.costs[0].toffoli;
     let costs = known.figures(together.iter().map(|(_, op)| op), &draft.registers);
     let apart = |&place: &usize| &draft.ops[place].0;
     let width = |id: RegisterId| draft.registers[id.index()].width;

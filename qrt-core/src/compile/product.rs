@@ -1,6 +1,7 @@
 //! Products, squares, and products with constants.
 
-use super::value::{Real, bits_of};
+use super::number::RegisterShape;
+use super::value::{RealValue, bits_of};
 use super::{Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
@@ -13,19 +14,19 @@ fn hull(ends: [i128; 4]) -> [i64; 2] {
 
 impl Builder<'_> {
     /// `factor a`, for a constant factor.
-    pub(super) fn times_constant(&mut self, a: Real, factor: f64) -> Real {
+    pub(super) fn times_constant(&mut self, a: RealValue, factor: f64) -> RealValue {
         if factor == 0.0 || !factor.is_finite() {
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         let offset = a.offset.scaled(factor);
         let bias = a.bias * factor;
         let Some(node) = a.node else {
-            return Real::fixed(offset);
+            return RealValue::fixed(offset);
         };
         let negated = a.negated != (factor < 0.0);
         let factor = factor.abs();
         let scaled = if factor == 1.0 {
-            Real::node(node)
+            RealValue::node(node)
         } else if let Some(table) = &self.values[node as usize].table {
             let table = table.map(|entry| entry * factor);
             self.tabulated(table)
@@ -33,14 +34,14 @@ impl Builder<'_> {
             self.scaled_node(node, factor)
         };
         let scaled = if negated { scaled.negative() } else { scaled };
-        Real {
+        RealValue {
             offset: scaled.offset.plus(offset),
             bias: scaled.bias + bias,
             ..scaled
         }
     }
 
-    fn scaled_node(&mut self, node: u32, factor: f64) -> Real {
+    fn scaled_node(&mut self, node: u32, factor: f64) -> RealValue {
         let range = self.values[node as usize].range;
         let most = range[0].unsigned_abs().max(range[1].unsigned_abs());
         // factor = m 2^-k up to a quarter of an ulp of the product; m is odd.
@@ -54,11 +55,11 @@ impl Builder<'_> {
         let whole = libm::ldexp(factor, k).round_ties_even();
         if whole >= (1_i64 << (MAX_BITS - 2)) as f64 {
             self.too_wide("a product", whole);
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         let whole = whole as i64;
         if whole == 0 {
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         }
         let zeros = whole.trailing_zeros();
         let (odd, k) = (whole >> zeros, k - zeros as i32);
@@ -69,7 +70,7 @@ impl Builder<'_> {
         let ends = range.map(|end| (i128::from(end) * i128::from(odd)) >> drop);
         let range = hull([ends[0], ends[1], ends[0], ends[1]]);
         let a = self.word_of(node);
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let style = self.target.strategy.style(Garbage::Products);
         let target = self.emit(Op::Scale {
             a,
@@ -88,14 +89,14 @@ impl Builder<'_> {
     }
 
     /// `node 2^exponent`, rounded down.
-    pub(super) fn shifted(&mut self, node: u32, exponent: i32) -> Real {
+    pub(super) fn shifted(&mut self, node: u32, exponent: i32) -> RealValue {
         let range = self.values[node as usize].range;
         let word = self.word_of(node);
         if exponent >= 0 {
             let shift = exponent.cast_unsigned();
             if word.bits() + shift > MAX_BITS {
                 self.too_wide("a product", libm::ldexp(1.0, (word.bits() + shift) as i32));
-                return Real::constant(0.0);
+                return RealValue::constant(0.0);
             }
             let word = Word {
                 shift: word.shift + shift,
@@ -111,14 +112,14 @@ impl Builder<'_> {
                 let floor = self.computed(word, range);
                 self.rounded_down(floor)
             }
-            None => Real::constant(0.0),
+            None => RealValue::constant(0.0),
         }
     }
 
     /// Marks a number as rounded down from one with many more bits. It is half an ulp too small on
     /// average.
-    pub(super) fn rounded_down(&self, a: Real) -> Real {
-        Real {
+    pub(super) fn rounded_down(&self, a: RealValue) -> RealValue {
+        RealValue {
             bias: if a.node.is_some() {
                 0.5 * self.ulp()
             } else {
@@ -128,7 +129,7 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn times(&mut self, a: Real, b: Real) -> Real {
+    pub(super) fn times(&mut self, a: RealValue, b: RealValue) -> RealValue {
         if let Some(factor) = a.as_constant() {
             return self.times_constant(b, factor);
         }
@@ -143,7 +144,7 @@ impl Builder<'_> {
         let negated = a.negated != b.negated;
         let (Operand::Word(x), Operand::Word(y)) = (a.operand, b.operand) else {
             // Unreachable: constants are handled above, and every other operand is a word.
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         };
         let drop = self.fraction();
         let ends = |i: usize, j: usize| (i128::from(a.range[i]) * i128::from(b.range[j])) >> drop;
@@ -159,7 +160,7 @@ impl Builder<'_> {
             // The narrower factor selects the rows.
             let order = |word: Word| (word.width, word.register, word.offset, word.shift);
             let (rows, other) = if order(x) <= order(y) { (x, y) } else { (y, x) };
-            let (ty, width, signed) = self.shape(range);
+            let RegisterShape { ty, width, signed } = self.shape(range);
             let style = self.target.strategy.style(Garbage::Products);
             let target = self.emit(Op::Multiply {
                 a: rows,
@@ -175,13 +176,13 @@ impl Builder<'_> {
         if negated { product.negative() } else { product }
     }
 
-    fn product_cost(&mut self, a: Real, b: Real) -> u32 {
+    fn product_cost(&mut self, a: RealValue, b: RealValue) -> u32 {
         let (a, b) = (self.range(a), self.range(b));
         bits_of(a).0 * bits_of(b).0
     }
 
-    pub(super) fn square(&mut self, a: Word, drop: u32, range: [i64; 2]) -> Real {
-        let (ty, width, signed) = self.shape(range);
+    pub(super) fn square(&mut self, a: Word, drop: u32, range: [i64; 2]) -> RealValue {
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let style = self.target.strategy.style(Garbage::Products);
         let target = self.emit(Op::Square {
             a,

@@ -13,8 +13,9 @@
 //!   computed twice.
 
 use super::draft::{Draft, Renamed};
-use super::known::{Known, QuickMap, QuickSet, locked};
+use super::known::{Known, QuickSet, locked};
 use super::{Label, StageName, Strategy};
+use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{BlockId, Instruction, RegisterId};
 use std::collections::BTreeSet;
 use std::sync::Mutex;

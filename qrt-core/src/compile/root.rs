@@ -1,12 +1,13 @@
 //! Square roots and lengths.
 
-use super::value::Real;
+use super::number::RegisterShape;
+use super::value::RealValue;
 use super::{Builder, GARBAGE, Garbage, MAX_BITS};
 use qrt_circuit::{Op, Operand, Word};
 
 impl Builder<'_> {
     /// The length of `v`: the root of a sum of squares. The squares keep all bits that fit.
-    pub(super) fn norm(&mut self, v: [Real; 3]) -> Real {
+    pub(super) fn norm(&mut self, v: [RealValue; 3]) -> RealValue {
         // Squares are in units of 4^-fraction. Low bits are dropped so that the greatest sum fits.
         let mut parts = Vec::new();
         let mut exact = 0.0;
@@ -31,7 +32,7 @@ impl Builder<'_> {
         // An even number, so that the root has whole bits.
         let drop = ((bits - MAX_BITS as i32 + 2).max(0).cast_unsigned() + 1) & !1;
         if parts.is_empty() {
-            return Real::constant((exact / (self.units() * self.units())).sqrt());
+            return RealValue::constant((exact / (self.units() * self.units())).sqrt());
         }
         let mut sum: Option<(Operand, [i64; 2])> = None;
         let constant = libm::ldexp(exact, -(drop as i32)).round_ties_even() as i64;
@@ -71,16 +72,16 @@ impl Builder<'_> {
                 }
             }
             Some((Operand::Constant(square), _)) => {
-                Real::constant((square as f64).sqrt() * self.ulp())
+                RealValue::constant((square as f64).sqrt() * self.ulp())
             }
-            None => Real::constant(0.0),
+            None => RealValue::constant(0.0),
         }
     }
 
     /// `floor(sqrt(word))`, as ulps.
-    fn integer_root(&mut self, word: Word, range: [i64; 2]) -> Real {
+    fn integer_root(&mut self, word: Word, range: [i64; 2]) -> RealValue {
         let range = range.map(|end| end.max(0).cast_unsigned().isqrt().cast_signed());
-        let (ty, width, signed) = self.shape(range);
+        let RegisterShape { ty, width, signed } = self.shape(range);
         let style = self.target.strategy.style(Garbage::Quotients);
         let a = Word {
             signed: false,
@@ -96,21 +97,21 @@ impl Builder<'_> {
     }
 
     /// `sqrt(max(a, 0))`, rounded down.
-    pub(super) fn root(&mut self, a: Real) -> Real {
+    pub(super) fn root(&mut self, a: RealValue) -> RealValue {
         if let Some(constant) = a.as_constant() {
-            return Real::constant(constant.max(0.0).sqrt());
+            return RealValue::constant(constant.max(0.0).sqrt());
         }
         if let Some(root) = self.tabulate_one(a, |a| a.max(0.0).sqrt()) {
             return root;
         }
         let a = if self.range(a)[0] < 0 {
-            self.greater(a, Real::constant(0.0))
+            self.greater(a, RealValue::constant(0.0))
         } else {
             a
         };
         let (operand, range) = self.operand(a);
         let Operand::Word(word) = operand else {
-            return Real::constant(0.0);
+            return RealValue::constant(0.0);
         };
         // Zeros appended below give the root its fraction bits: `fraction` zeros, or two fewer for
         // each fraction bit that the root then lacks.

@@ -7,7 +7,7 @@
 
 use super::StageName;
 use qrt_circuit::Style;
-use qrt_scene::{Again, PARTS, Uncompute};
+use qrt_scene::{Recomputed, UNCOMPUTE_PARTS, Uncompute};
 
 /// Parts of the tracer whose work can be undone at their ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,14 +46,14 @@ impl Scope {
     /// The scope of a stage, if it has one.
     fn from_stage(stage: StageName) -> Option<Self> {
         Some(match stage {
-            StageName::Plane(_) | StageName::Primitive(_) => Self::Plane,
+            StageName::Plane(_) | StageName::Primitive(_) | StageName::Sphere(_) => Self::Plane,
             StageName::Body(_) => Self::Body,
             StageName::FindIntersection | StageName::Shadow => Self::Search,
             StageName::GenerateRay | StageName::SampleLight => Self::Ray,
             StageName::Sample => Self::Sample,
             StageName::Component(_) => Self::Component,
             StageName::Side => Self::Side,
-            StageName::Shade => Self::Shade,
+            StageName::Shade | StageName::Sky => Self::Shade,
             _ => return None,
         })
     }
@@ -106,8 +106,8 @@ impl Strategy {
 
     /// The independent choices of a strategy, the most effective first: scopes, the small ones together,
     /// and garbage that is undone at once. Whichever choices are made already, one more saves no Toffolis
-    /// and costs no qubits except a few for copies. [`PARTS`] has their names.
-    pub(crate) const CHOICES: [Self; PARTS.len()] = {
+    /// and costs no qubits except a few for copies. [`UNCOMPUTE_PARTS`] has their names.
+    pub(crate) const CHOICES: [Self; UNCOMPUTE_PARTS.len()] = {
         use Garbage::{Products, Quotients, Tables};
         use Scope::{Body, Component, Plane, Ray, Sample, Search, Shade, Side};
         [
@@ -142,9 +142,9 @@ impl Strategy {
         let (parts, again) = uncompute.parts()?;
         let kept = Self::of_choices(parts.into());
         Some(match again {
-            Again::Nothing => kept,
-            Again::Cheap => kept.recomputing(),
-            Again::Sources => kept.running_again(),
+            Recomputed::Nothing => kept,
+            Recomputed::Cheap => kept.recomputing(),
+            Recomputed::Sources => kept.running_again(),
         })
     }
 
@@ -167,9 +167,9 @@ impl Strategy {
         Uncompute::of_parts(
             parts,
             match (self.recomputes, self.runs_again) {
-                (_, true) => Again::Sources,
-                (true, false) => Again::Cheap,
-                (false, false) => Again::Nothing,
+                (_, true) => Recomputed::Sources,
+                (true, false) => Recomputed::Cheap,
+                (false, false) => Recomputed::Nothing,
             },
         )
     }
@@ -197,18 +197,18 @@ impl Strategy {
     }
 
     /// The same as [`Strategy::recomputing`], but it undoes more values, by recomputing their inputs.
-    pub const fn running_again(mut self) -> Self {
+    pub(crate) const fn running_again(mut self) -> Self {
         self.runs_again = true;
         self.recomputing()
     }
 
     /// True if cheap values are recomputed at each use and undone after their last use.
-    pub const fn recomputes(&self) -> bool {
+    pub(crate) const fn recomputes(self) -> bool {
         self.recomputes
     }
 
     /// True if more values are undone, by recomputing their inputs.
-    pub const fn runs_again(&self) -> bool {
+    pub(crate) const fn runs_again(self) -> bool {
         self.runs_again
     }
 
@@ -249,7 +249,7 @@ impl Strategy {
     }
 
     /// True if the work of this scope is undone at its end.
-    pub const fn undoes(&self, scope: Scope) -> bool {
+    pub(crate) const fn undoes(self, scope: Scope) -> bool {
         self.scopes >> scope as u16 & 1 == 1
     }
 

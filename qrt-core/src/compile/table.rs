@@ -1,6 +1,7 @@
 //! Functions of few bits.
 
-use super::value::{Real, Tabulated, Value};
+use super::number::RegisterShape;
+use super::value::{RealValue, Tabulated, Value};
 use super::{Builder, FEW, GARBAGE, Garbage};
 use qrt_circuit::{Bit, Op, RegisterId, Type, Word};
 use std::rc::Rc;
@@ -101,18 +102,18 @@ pub(super) fn joined(
 
 impl Builder<'_> {
     /// A number that is a function of few bits.
-    pub(super) fn tabulated(&mut self, table: Tabulated) -> Real {
+    pub(super) fn tabulated(&mut self, table: Tabulated) -> RealValue {
         let table = table.reduced();
         let first = table.entries[0];
         if table.address.is_empty() {
-            return Real::constant(first);
+            return RealValue::constant(first);
         }
         let low = table.entries.iter().copied().fold(first, f64::min);
         let high = table.entries.iter().copied().fold(first, f64::max);
         let range = [self.rounded(low), self.rounded(high)];
         if range[0] == range[1] {
             // All entries round to one number: the table is that constant.
-            return Real::constant(range[0] as f64 * self.ulp());
+            return RealValue::constant(range[0] as f64 * self.ulp());
         }
         self.value(Value {
             range,
@@ -122,7 +123,7 @@ impl Builder<'_> {
     }
 
     /// The table of a number, its sign and constant included; none if it has no table.
-    pub(super) fn table_of(&self, a: Real) -> Option<Tabulated> {
+    pub(super) fn table_of(&self, a: RealValue) -> Option<Tabulated> {
         if !a.offset.is_constant() {
             return None;
         }
@@ -139,7 +140,11 @@ impl Builder<'_> {
     }
 
     /// `f(a)` as a table, if `a` is a table.
-    pub(super) fn tabulate_one(&mut self, a: Real, f: impl Fn(f64) -> f64) -> Option<Real> {
+    pub(super) fn tabulate_one(
+        &mut self,
+        a: RealValue,
+        f: impl Fn(f64) -> f64,
+    ) -> Option<RealValue> {
         let table = self.table_of(a)?.map(f);
         Some(self.tabulated(table))
     }
@@ -147,11 +152,11 @@ impl Builder<'_> {
     /// `f(a, b)` as a table, if both are tables and arithmetic would cost more.
     pub(super) fn tabulate_pair(
         &mut self,
-        a: Real,
-        b: Real,
+        a: RealValue,
+        b: RealValue,
         cost: u32,
         f: impl Fn(f64, f64) -> f64,
-    ) -> Option<Real> {
+    ) -> Option<RealValue> {
         let (a, b) = (self.table_of(a)?, self.table_of(b)?);
         if !self.target.passes.tabulate && a.address != b.address {
             return None;
@@ -178,7 +183,7 @@ impl Builder<'_> {
                 let zeros = entries.iter().filter(|&&entry| entry != 0);
                 let zeros = zeros.map(|entry| entry.trailing_zeros()).min().unwrap_or(0);
                 let entries = entries.iter().map(|entry| entry >> zeros).collect();
-                let (ty, width, signed) = self.shape(range.map(|end| end >> zeros));
+                let RegisterShape { ty, width, signed } = self.shape(range.map(|end| end >> zeros));
                 let target = self.look_up(&table.address, entries, ty, width);
                 Word {
                     shift: zeros,

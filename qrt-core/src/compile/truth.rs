@@ -1,18 +1,18 @@
 //! Truth values and comparisons.
 
 use super::table::joined;
-use super::value::{Bool, Real, Tabulated, Truth};
+use super::value::{BoolValue, RealValue, Tabulated, Truth};
 use super::{Builder, negative_range};
 use qrt_circuit::{Bit, Op, Operand, Type};
 
 impl Builder<'_> {
-    fn truth_node(&mut self, truth: Truth) -> Bool {
+    fn truth_node(&mut self, truth: Truth) -> BoolValue {
         self.truths.push(truth);
-        Bool::node(self.truths.len() as u32 - 1)
+        BoolValue::node(self.truths.len() as u32 - 1)
     }
 
     /// The truth value that `bit` holds.
-    pub(super) fn truth_of(&mut self, bit: Bit) -> Bool {
+    pub(super) fn truth_of(&mut self, bit: Bit) -> BoolValue {
         let node = self.truth_node(Truth {
             bit: Some(Bit {
                 inverted: false,
@@ -24,10 +24,10 @@ impl Builder<'_> {
     }
 
     /// A truth value that is a function of few bits; entries are 0 and 1.
-    pub(super) fn tabulated_truth(&mut self, table: Tabulated) -> Bool {
+    pub(super) fn tabulated_truth(&mut self, table: Tabulated) -> BoolValue {
         let first = table.entries[0];
         if table.entries.iter().all(|&entry| entry == first) {
-            return Bool::Constant(first != 0.0);
+            return BoolValue::Constant(first != 0.0);
         }
         self.truth_node(Truth {
             bit: None,
@@ -35,10 +35,10 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn truth_table(&self, a: Bool) -> Option<Tabulated> {
+    pub(super) fn truth_table(&self, a: BoolValue) -> Option<Tabulated> {
         match a {
-            Bool::Constant(_) => None,
-            Bool::Node { node, inverted } => {
+            BoolValue::Constant(_) => None,
+            BoolValue::Node { node, inverted } => {
                 let table = self.truths[node as usize].table.as_ref()?;
                 Some(if inverted {
                     table.map(|entry| 1.0 - entry)
@@ -50,8 +50,8 @@ impl Builder<'_> {
     }
 
     /// The bit that holds a truth value. A table is looked up now.
-    pub(super) fn bit(&mut self, a: Bool) -> Bit {
-        let Bool::Node { node, inverted } = a else {
+    pub(super) fn bit(&mut self, a: BoolValue) -> Bit {
+        let BoolValue::Node { node, inverted } = a else {
             // Unreachable: constants fold before an operation needs their bit.
             return Bit {
                 register: self.id,
@@ -85,12 +85,14 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn both(&mut self, a: Bool, b: Bool) -> Bool {
+    pub(super) fn both(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         match (a, b) {
-            (Bool::Constant(false), _) | (_, Bool::Constant(false)) => Bool::Constant(false),
-            (Bool::Constant(true), other) | (other, Bool::Constant(true)) => other,
+            (BoolValue::Constant(false), _) | (_, BoolValue::Constant(false)) => {
+                BoolValue::Constant(false)
+            }
+            (BoolValue::Constant(true), other) | (other, BoolValue::Constant(true)) => other,
             _ if a == b => a,
-            _ if a == b.negated() => Bool::Constant(false),
+            _ if a == b.negated() => BoolValue::Constant(false),
             _ => {
                 if let (Some(x), Some(y)) = (self.truth_table(a), self.truth_table(b))
                     && let Some(table) = joined(&x, &y, 1, |a, b| a * b)
@@ -114,25 +116,30 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn either(&mut self, a: Bool, b: Bool) -> Bool {
+    pub(super) fn either(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         self.both(a.negated(), b.negated()).negated()
     }
 
     /// `if when { a } else { b }`
-    pub(super) fn chosen_truth(&mut self, when: Bool, a: Bool, b: Bool) -> Bool {
+    pub(super) fn chosen_truth(
+        &mut self,
+        when: BoolValue,
+        a: BoolValue,
+        b: BoolValue,
+    ) -> BoolValue {
         match (when, a, b) {
             _ if a == b => a,
-            (Bool::Constant(when), ..) => {
+            (BoolValue::Constant(when), ..) => {
                 if when {
                     a
                 } else {
                     b
                 }
             }
-            (_, Bool::Constant(true), _) => self.either(when, b),
-            (_, Bool::Constant(false), _) => self.both(when.negated(), b),
-            (_, _, Bool::Constant(true)) => self.either(when.negated(), a),
-            (_, _, Bool::Constant(false)) => self.both(when, a),
+            (_, BoolValue::Constant(true), _) => self.either(when, b),
+            (_, BoolValue::Constant(false), _) => self.both(when.negated(), b),
+            (_, _, BoolValue::Constant(true)) => self.either(when.negated(), a),
+            (_, _, BoolValue::Constant(false)) => self.both(when, a),
             _ => {
                 let differ = self.differ(a, b);
                 let change = self.both(when, differ);
@@ -141,9 +148,9 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn differ(&mut self, a: Bool, b: Bool) -> Bool {
+    pub(super) fn differ(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         match (a, b) {
-            (Bool::Constant(known), other) | (other, Bool::Constant(known)) => {
+            (BoolValue::Constant(known), other) | (other, BoolValue::Constant(known)) => {
                 if known {
                     other.negated()
                 } else {
@@ -167,13 +174,13 @@ impl Builder<'_> {
     }
 
     /// `a < 0`
-    pub(super) fn negative_sign(&mut self, a: Real) -> Bool {
+    pub(super) fn negative_sign(&mut self, a: RealValue) -> BoolValue {
         let range = self.range(a);
         if range[0] >= 0 {
-            return Bool::Constant(false);
+            return BoolValue::Constant(false);
         }
         if range[1] < 0 {
-            return Bool::Constant(true);
+            return BoolValue::Constant(true);
         }
         if let Some(table) = self.table_of(a) {
             let ulp = self.ulp();
@@ -182,7 +189,7 @@ impl Builder<'_> {
         }
         let plain = self.plain(a);
         let Operand::Word(word) = plain.operand else {
-            return Bool::Constant(false);
+            return BoolValue::Constant(false);
         };
         if !plain.negated {
             return self.truth_of(Bit {
@@ -201,13 +208,13 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn is_less(&mut self, a: Real, b: Real) -> Bool {
+    pub(super) fn is_less(&mut self, a: RealValue, b: RealValue) -> BoolValue {
         let (x, y) = (self.range(a), self.range(b));
         if x[1] < y[0] {
-            return Bool::Constant(true);
+            return BoolValue::Constant(true);
         }
         if x[0] >= y[1] {
-            return Bool::Constant(false);
+            return BoolValue::Constant(false);
         }
         if let (Some(x), Some(y)) = (self.table_of(a), self.table_of(b))
             && let Some(table) = joined(&x, &y, self.fraction(), |a, b| f64::from(a < b))

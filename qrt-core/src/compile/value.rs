@@ -84,7 +84,7 @@ impl Affine {
 /// `±node + offset`. Signs and constants stay apart from the bits until an operation needs the
 /// bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Real {
+pub struct RealValue {
     pub(super) node: Option<u32>,
     pub(super) negated: bool,
     pub(super) offset: Affine,
@@ -93,7 +93,7 @@ pub struct Real {
     pub(super) bias: f64,
 }
 
-impl Real {
+impl RealValue {
     pub(super) fn constant(value: f64) -> Self {
         Self::fixed(Affine::constant(value))
     }
@@ -133,7 +133,7 @@ impl Real {
 
 /// A truth value: the same on all paths, or a node or its negation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bool {
+pub enum BoolValue {
     /// The same on all paths.
     Constant(bool),
     /// A truth value of the path, by its node or that node's negation.
@@ -145,7 +145,7 @@ pub enum Bool {
     },
 }
 
-impl Bool {
+impl BoolValue {
     pub(super) fn node(node: u32) -> Self {
         Self::Node {
             node,

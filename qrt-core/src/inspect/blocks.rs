@@ -1,6 +1,6 @@
 //! Costs by block.
 
-use super::{Inspection, Part};
+use super::{CallPart, Inspection};
 use crate::compile::Label;
 use qrt_circuit::lower::Cost;
 use qrt_circuit::{Block, BlockId, RegisterId};
@@ -37,7 +37,7 @@ impl Inspection {
         let blocks = &self.whole.blocks;
         let (one, within) = merged(blocks);
         let mut own = vec![[Cost::default(); 2]; blocks.len()];
-        let compute = self.instructions(Part::Compute);
+        let compute = self.instructions(CallPart::Compute);
         for (at, instruction) in self.whole.instructions.iter().enumerate() {
             let [whole, computed] = &mut own[one[instruction.block.index()]];
             *whole = *whole + self.costs[at];

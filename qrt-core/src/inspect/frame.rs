@@ -4,7 +4,7 @@
 //! of their own. The values that a box computes *and another box reads* are one wire. All other
 //! qubits, with the ancillas that operations borrow, are the wire `work`.
 
-use super::{Inspection, Part, Stage};
+use super::{CallPart, CallStage, Inspection};
 use crate::compile::{Role, StageName};
 use qrt_circuit::RegisterId;
 use qrt_circuit::lower::Cost;
@@ -25,13 +25,13 @@ pub struct Wire {
 
 /// A box of the paper's figure: a stage of the call.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FrameBox {
+pub struct DiagramBox {
     /// The title of the box: `Find Intersection 0`.
     pub name: String,
     /// The stage of the oracle.
     pub stage: StageName,
     /// The part of the call.
-    pub part: Part,
+    pub part: CallPart,
     /// True if the box is the inverse of another.
     pub inverse: bool,
     /// The cost of the box in gates.
@@ -48,11 +48,11 @@ pub struct FrameBox {
 /// a box computes and another box reads are one wire. All other qubits, with the ancillas that
 /// operations borrow, are the wire `work`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct CallDiagram {
     /// The wires from the top; the last is `work`.
     pub wires: Vec<Wire>,
     /// The boxes from the left, in the order in which they run.
-    pub boxes: Vec<FrameBox>,
+    pub boxes: Vec<DiagramBox>,
 }
 
 /// The wire that a register is a part of.
@@ -67,8 +67,8 @@ enum Bundle {
     Work,
 }
 
-impl Frame {
-    /// The frame of an inspected call.
+impl CallDiagram {
+    /// The diagram of an inspected call.
     pub fn new(inspection: &Inspection) -> Self {
         let stages = inspection.stages();
         let bundles = bundles(inspection, &stages);
@@ -114,7 +114,7 @@ impl Frame {
             }
             // A phase flip computes no register: its box writes no wire.
             let wire = |bundle: &Bundle| order.iter().position(|known| known == bundle);
-            FrameBox {
+            DiagramBox {
                 name: title(stage),
                 stage: stage.name,
                 part: stage.part,
@@ -136,7 +136,7 @@ impl Frame {
         if self.wires[wire].input {
             return 0..self.boxes.len() + 1;
         }
-        let writes = |b: &FrameBox| b.writes.contains(&wire);
+        let writes = |b: &DiagramBox| b.writes.contains(&wire);
         let first = self.boxes.iter().position(writes).unwrap_or(0);
         let last = self.boxes.iter().rposition(writes).unwrap_or(first);
         first + 1..last + 1
@@ -144,12 +144,12 @@ impl Frame {
 }
 
 /// By register: its bundle. A register that only its own stage reads is work.
-fn bundles(inspection: &Inspection, stages: &[Stage]) -> Vec<Bundle> {
+fn bundles(inspection: &Inspection, stages: &[CallStage]) -> Vec<Bundle> {
     let registers = &inspection.whole.registers;
     let mut made = vec![None; registers.len()];
     let mut shared = vec![false; registers.len()];
     for (place, stage) in stages.iter().enumerate() {
-        if stage.part == Part::Uncompute {
+        if stage.part == CallPart::Uncompute {
             break;
         }
         for instruction in &inspection.whole.instructions[stage.instructions.clone()] {
@@ -200,7 +200,7 @@ fn work(inspection: &Inspection, bundles: &[Bundle]) -> u64 {
 
 /// The wire that leaves a stage: a ray leaves Generate Ray, the nearest hit leaves Find
 /// Intersection.
-fn wire_of(stage: &Stage) -> (String, Option<u32>) {
+fn wire_of(stage: &CallStage) -> (String, Option<u32>) {
     let name = match stage.name {
         StageName::GenerateRay => "ray".to_owned(),
         StageName::FindIntersection => "nearest".to_owned(),
@@ -215,7 +215,7 @@ fn wire_of(stage: &Stage) -> (String, Option<u32>) {
 }
 
 /// The title of a stage's box: `Find Intersection 0` for `find_intersection 0`.
-fn title(stage: &Stage) -> String {
+fn title(stage: &CallStage) -> String {
     if stage.name == StageName::Flip {
         return "Z".to_owned();
     }

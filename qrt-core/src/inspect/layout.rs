@@ -30,7 +30,7 @@ pub struct Lifetime {
 /// whole here, so the layout can be a little higher than the number of qubits in use, which the
 /// placement of single qubits reaches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Layout {
+pub struct RegisterLayout {
     /// The lifetimes, in the order in which they begin.
     pub lifetimes: Vec<Lifetime>,
     /// Number of qubits of the layout.
@@ -40,7 +40,7 @@ pub struct Layout {
     offsets: Vec<Option<u32>>,
 }
 
-impl Layout {
+impl RegisterLayout {
     /// Lays out a program. Inputs come first and stay.
     pub fn new(program: &Program) -> Self {
         let end = program.instructions.len();
@@ -224,7 +224,7 @@ mod tests {
             }
             undo.truncate((seed % (length as u64 + 1)) as usize);
             let program = program(&widths, &undo);
-            let layout = Layout::new(&program);
+            let layout = RegisterLayout::new(&program);
             prop_assert_eq!(layout.lifetimes.len(), widths.len());
             for (n, a) in layout.lifetimes.iter().enumerate() {
                 let top = a.offset + program.width(a.register);

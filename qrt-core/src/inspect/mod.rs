@@ -1,5 +1,5 @@
 //! The cost of a scene's oracle and its parts: the figures of `qrt inspect`, which
-//! `qrt_runtime::draw` draws.
+//! `qrt_lab::draw` draws.
 //!
 //! All figures are computed from one whole call of the oracle, `O_f` = compute, compare and flip,
 //! uncompute ([`Oracle::whole`]): its instructions, their costs, the blocks that the costs are
@@ -16,22 +16,21 @@ mod stages;
 mod tests;
 
 pub use blocks::BlockFigures;
-pub use frame::{Frame, FrameBox, Wire};
-pub use layout::{Layout, Lifetime};
-pub use passes::{PassFigures, pass_figures};
+pub use frame::{CallDiagram, DiagramBox, Wire};
+pub use layout::{Lifetime, RegisterLayout};
+pub use passes::PassFigures;
 pub use pixel::OraclePixel;
 pub use qrt_scene::syntax::grouped;
-pub use stages::{Part, Stage};
+pub use stages::{CallPart, CallStage};
 
 use crate::compile::{Role, Strategy};
 use crate::oracle::{
-    CallCost, Options, Oracle, OracleCost, OracleError, OracleName, PARTS_OF_A_CALL, oracle_costs,
+    CallCost, Oracle, OracleCost, OracleError, OracleName, Oracles, PARTS_OF_A_CALL,
 };
-use crate::tracer::PixelClasses;
-use qrt_circuit::Program;
+use crate::tracer::PixelClass;
 use qrt_circuit::lower::{self, Cost};
-use qrt_scene::valid::ValidScene;
-use std::fmt::Write as _;
+use qrt_circuit::quantum::{Conjunction, CountingCircuit, Window};
+use qrt_circuit::{Op, Program};
 use std::ops::Range;
 
 /// The names of the channels, in their order.
@@ -61,94 +60,71 @@ pub struct Inspection {
     /// before.
     pub toffoli_depth: u64,
     /// The qubits and the lifetimes of each register.
-    pub layout: Layout,
+    pub layout: RegisterLayout,
 }
 
 impl Inspection {
-    /// Inspects the oracle of `channel`, for pixels of the class that `options` names; without a
-    /// channel, the one whose oracle has the most Toffolis, the first of equals.
+    /// Inspects one of [`Oracles::names`].
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn new(
-        scene: &ValidScene,
-        channel: Option<usize>,
-        options: Options,
-    ) -> Result<Self, OracleError> {
-        let first = channel.unwrap_or(0);
-        // Determined once for all channels.
-        let strategy = options.strategy(scene)?;
-        let options = Options {
-            strategy: Some(strategy),
-            ..options
-        };
-        let mut most = Candidate::new(scene, first, options)?;
-        if channel.is_none() {
-            for channel in first + 1..CHANNELS.len() {
-                let other = Candidate::new(scene, channel, options)?;
-                if other.toffoli > most.toffoli {
-                    most = other;
-                }
-            }
-        }
-        let Candidate {
-            channel,
-            oracle,
-            whole,
-            costs,
-            ..
-        } = most;
+    pub fn new(oracles: &Oracles<'_>, name: OracleName) -> Result<Self, OracleError> {
+        let oracle = oracles.channel(name.channel, name.class)?;
+        let whole = oracle.whole(0);
         let size = lower::size(&whole);
-        let present = PixelClasses::new(scene).present();
         Ok(Self {
             toffoli_depth: size.depth,
             qubits: size.qubits,
             in_use: size.in_use,
-            layout: Layout::new(&whole),
-            name: OracleName {
-                channel,
-                class: options.class,
-                of_all_pixels: present == [options.class],
-            },
+            layout: RegisterLayout::new(&whole),
+            costs: lower::tally(&whole),
+            name,
             pixel: None,
-            strategy,
+            strategy: oracles.strategy()?,
             oracle,
             whole,
-            costs,
         })
     }
 
-    /// Inspects the most expensive oracle of `channel`, or of all channels. The film's pixels fix the
-    /// classes that are compared.
+    /// Inspects the most expensive oracle of `channel`, or of all channels: the one with the most
+    /// Toffolis, the first of equals. The film's pixels fix the classes that are compared.
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn most_expensive(scene: &ValidScene, channel: Option<usize>) -> Result<Self, OracleError> {
-        Self::most_expensive_of(scene, &oracle_costs(scene)?, channel)
+    pub fn most_expensive(
+        oracles: &Oracles<'_>,
+        channel: Option<usize>,
+    ) -> Result<Self, OracleError> {
+        Self::most_expensive_of(oracles, &oracles.costs()?, channel)
     }
 
-    /// Inspects the most expensive oracle by `costs`, the scene's [`oracle_costs`] or some of them.
+    /// As [`Inspection::most_expensive`], for pixels of one class, which need not be on the film.
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    ///
-    /// # Panics
-    /// If `costs` has no oracle of `channel`, or none at all.
-    pub fn most_expensive_of(
-        scene: &ValidScene,
+    pub fn of_class(
+        oracles: &Oracles<'_>,
+        channel: Option<usize>,
+        class: PixelClass,
+    ) -> Result<Self, OracleError> {
+        Self::most_expensive_of(oracles, &oracles.costs_of(class)?, channel)
+    }
+
+    fn most_expensive_of(
+        oracles: &Oracles<'_>,
         costs: &[OracleCost],
         channel: Option<usize>,
     ) -> Result<Self, OracleError> {
         let costs = costs.iter().copied();
         let asked = costs.filter(|cost| channel.is_none_or(|one| one == cost.name.channel));
-        let Some(OracleCost { name, .. }) = OracleCost::most_expensive(asked) else {
-            panic!("there are no costs of an oracle that is asked for");
-        };
-        Self::new(scene, Some(name.channel), Options::of_class(name.class))
+        match OracleCost::most_expensive(asked) {
+            Some(OracleCost { name, .. }) => Self::new(oracles, name),
+            None => unreachable!("each class has the three channels"),
+        }
     }
 
-    /// Inspects the oracle of a pixel as it is exported: that of the pixel's class, with the pixel's
-    /// parameters built in. Without a channel, the one with the most Toffolis.
+    /// Inspects the oracle of a pixel alone, as it is exported: its position and the other parameters
+    /// are built in. Without a channel, the one with the most Toffolis.
     ///
     /// # Errors
     /// As [`Oracle::new`].
@@ -156,25 +132,35 @@ impl Inspection {
     /// # Panics
     /// If the pixel is outside the film.
     pub fn of_pixel(
-        scene: &ValidScene,
+        oracles: &Oracles<'_>,
         channel: Option<usize>,
         pixel: OraclePixel,
     ) -> Result<Self, OracleError> {
-        let ([x, y], film) = (pixel.place, scene.scene().film);
+        let ([x, y], film) = (pixel.place, oracles.scene().scene().film);
         assert!(
             x < film.width && y < film.height,
             "there is no pixel {x},{y} on a film of {} x {}",
             film.width,
             film.height
         );
-        let class = PixelClasses::new(scene).class(pixel.place);
-        let mut inspection = Self::new(scene, channel, Options::of_class(class))?;
+        let class = oracles.classes().class(pixel.place);
+        let alone;
+        let oracles = if oracles.pixel() == Some(pixel.place) {
+            oracles
+        } else {
+            alone = oracles.of_pixel(pixel.place);
+            &alone
+        };
+        let mut inspection = match channel {
+            Some(channel) => Self::new(oracles, oracles.name(channel, class))?,
+            None => Self::of_class(oracles, None, class)?,
+        };
         pixel.build_in(&inspection.oracle, &inspection.whole, &mut inspection.costs);
         inspection.pixel = Some(pixel);
         Ok(inspection)
     }
 
-    /// The entry of [`oracle_costs`] for this oracle.
+    /// The entry of [`Oracles::costs`] for this oracle.
     pub fn oracle_cost(&self) -> OracleCost {
         OracleCost {
             name: self.name,
@@ -187,16 +173,9 @@ impl Inspection {
 
     /// Names the oracle in words: its channel, and its pixel or class of pixels.
     pub fn which(&self) -> String {
-        let channel = self.name.channel_name();
         match self.pixel {
             None => self.name.to_string(),
-            Some(OraclePixel { place: [x, y], .. }) => {
-                let mut text = format!("channel {channel}, pixel {x},{y}");
-                if !self.name.of_all_pixels {
-                    let _ = write!(text, " of the {}", self.name.pixels());
-                }
-                text
-            }
+            Some(pixel) => pixel.which(self.name),
         }
     }
 
@@ -224,13 +203,45 @@ impl Inspection {
     }
 
     /// The cost of a part; the three add up to [`Inspection::total`].
-    pub fn part(&self, part: Part) -> Cost {
+    pub fn part(&self, part: CallPart) -> Cost {
         self.cost(self.instructions(part))
     }
 
     /// The cost of some of the instructions.
     pub fn cost(&self, instructions: Range<usize>) -> Cost {
         self.costs[instructions].iter().copied().sum()
+    }
+
+    /// Toffolis of the call that look up tables whose address is bits of the path index or of sampled
+    /// coordinates. A circuit of few path bits can be such a table altogether.
+    pub fn toffolis_of_tables(&self) -> u64 {
+        let id = self.oracle.id;
+        let mut of_paths = vec![false; self.whole.registers.len()];
+        of_paths[id.index()] = true;
+        for op in &self.whole.ops {
+            if let Op::Parity { target, .. } = op {
+                of_paths[target.index()] = true;
+            }
+        }
+        let instructions = self.whole.instructions.iter().zip(&self.costs);
+        let tables = instructions.filter(|(instruction, _)| {
+            matches!(&self.whole.ops[instruction.op as usize], Op::Table { address, .. }
+                if address.iter().all(|bit| of_paths[bit.register.index()]))
+        });
+        tables.map(|(_, cost)| cost.toffoli).sum()
+    }
+
+    /// Number of qubits of the complete counting circuit with a phase register of `phase_bits` qubits and
+    /// `window` on it, as `qrt export --part counting` writes it.
+    pub fn complete_qubits(&self, phase_bits: u32, window: Window) -> u32 {
+        let index = self.oracle.points.path_bits() + self.oracle.comparator_bits();
+        CountingCircuit::qubits_around(
+            self.qubits,
+            index,
+            phase_bits,
+            window,
+            Conjunction::Toffolis,
+        )
     }
 
     /// Toffolis times qubits: the size of the computation in space and time.
@@ -240,13 +251,13 @@ impl Inspection {
     }
 
     /// The range of a part in [`Program::instructions`].
-    pub fn instructions(&self, part: Part) -> Range<usize> {
+    pub fn instructions(&self, part: CallPart) -> Range<usize> {
         let compute = self.oracle.program.instructions.len();
         let whole = self.whole.instructions.len();
         match part {
-            Part::Compute => 0..compute,
-            Part::Flip => compute..whole - compute,
-            Part::Uncompute => whole - compute..whole,
+            CallPart::Compute => 0..compute,
+            CallPart::Flip => compute..whole - compute,
+            CallPart::Uncompute => whole - compute..whole,
         }
     }
 
@@ -277,35 +288,12 @@ impl Inspection {
         (roles, ancillas)
     }
 
-    /// The cost of the call without passes, and with the passes added one after the other.
+    /// The cost of the call without passes, and with the passes added one after the other. For that, the
+    /// oracle is recorded again without and with the passes that change a recording.
     ///
     /// # Errors
     /// As [`Oracle::new`]: without some pass a scene's numbers may not fit.
-    pub fn passes(&self, scene: &ValidScene) -> Result<Vec<PassFigures>, OracleError> {
-        pass_figures(scene, self)
-    }
-}
-
-/// A channel that may be the most expensive.
-struct Candidate {
-    channel: usize,
-    oracle: Oracle,
-    whole: Program,
-    costs: Vec<Cost>,
-    toffoli: u64,
-}
-
-impl Candidate {
-    fn new(scene: &ValidScene, channel: usize, options: Options) -> Result<Self, OracleError> {
-        let oracle = Oracle::new(scene, channel, options)?;
-        let whole = oracle.whole(0);
-        let costs = lower::tally(&whole);
-        Ok(Self {
-            channel,
-            toffoli: costs.iter().copied().sum::<Cost>().toffoli,
-            oracle,
-            whole,
-            costs,
-        })
+    pub fn passes(&self, oracles: &Oracles<'_>) -> Result<Vec<PassFigures>, OracleError> {
+        passes::figures(oracles, self)
     }
 }

@@ -2,9 +2,8 @@
 
 use super::Inspection;
 use crate::compile::Passes;
-use crate::oracle::{Options, Oracle, OracleError};
+use crate::oracle::{OracleError, Oracles};
 use qrt_circuit::lower::{self, Cost};
-use qrt_scene::valid::ValidScene;
 
 /// The cost of a call of the oracle after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,15 +16,15 @@ pub struct PassFigures {
     pub ops: u64,
     /// Number of qubits that the call needs.
     pub qubits: u32,
+    /// Number of operations that the tracer requested of the channel by itself, and number of these
+    /// that reused an earlier one.
+    pub requested: [u64; 2],
 }
 
 /// The figures without any pass, and with the passes added one after the other. The last figures
 /// are those of `inspection`, which has all passes.
-///
-/// # Errors
-/// As [`Oracle::new`].
-pub fn pass_figures(
-    scene: &ValidScene,
+pub(super) fn figures(
+    oracles: &Oracles<'_>,
     inspection: &Inspection,
 ) -> Result<Vec<PassFigures>, OracleError> {
     let share = Passes {
@@ -52,19 +51,21 @@ pub fn pass_figures(
         ("merge", merge),
     ];
     let mut figures = Vec::with_capacity(steps.len() + 1);
-    for (name, passes) in steps {
-        let options = Options {
-            passes,
-            strategy: Some(inspection.strategy),
-            class: inspection.name.class,
-        };
-        let oracle = Oracle::new(scene, inspection.name.channel, options)?;
+    let mut requested = [0; 2];
+    let passes = steps.map(|(_, passes)| passes);
+    let by_passes = match inspection.oracle.pixel {
+        Some(pixel) => oracles.of_pixel(pixel).by_passes(inspection.name, &passes),
+        None => oracles.by_passes(inspection.name, &passes),
+    };
+    for ((name, _), oracle) in steps.iter().zip(by_passes?) {
         let whole = oracle.whole(0);
+        requested = oracle.sharing;
         figures.push(PassFigures {
             name,
             toffoli: lower::tally(&whole).into_iter().sum::<Cost>().toffoli,
             ops: oracle.program.ops.len() as u64,
             qubits: lower::size(&whole).qubits,
+            requested,
         });
     }
     figures.push(PassFigures {
@@ -72,6 +73,8 @@ pub fn pass_figures(
         toffoli: inspection.total().toffoli,
         ops: inspection.oracle.program.ops.len() as u64,
         qubits: inspection.qubits,
+        // The last pass works on the recording of the one before.
+        requested,
     });
     Ok(figures)
 }

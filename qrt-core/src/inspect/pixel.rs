@@ -1,8 +1,9 @@
 //! A pixel's parameters, built into its oracle.
 
-use crate::oracle::Oracle;
+use crate::oracle::{Oracle, OracleName};
 use qrt_circuit::lower::Cost;
 use qrt_circuit::{Op, Program, RegisterId};
+use std::fmt::Write as _;
 
 /// A pixel, and the seed that shifts its paths: together they fix the parameters of its oracle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,6 +15,16 @@ pub struct OraclePixel {
 }
 
 impl OraclePixel {
+    /// Names the pixel's oracle in words. `oracle` is the name of the oracle of its class.
+    pub fn which(&self, oracle: OracleName) -> String {
+        let [x, y] = self.place;
+        let mut text = format!("channel {}, pixel {x},{y} alone", oracle.channel_name());
+        if !oracle.of_all_pixels {
+            let _ = write!(text, ", of the {}", oracle.pixels());
+        }
+        text
+    }
+
     /// Subtracts from the costs of a call's instructions the X gates that this pixel does not have:
     /// a parameter's bit is an X where it is 1, and no gate where it is 0.
     pub(super) fn build_in(&self, oracle: &Oracle, whole: &Program, costs: &mut [Cost]) {

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// A part of one call of the oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
+pub enum CallPart {
     /// Computes the colour from the path index.
     Compute,
     /// Compares the colour with the comparator, flips the phase, and uncomputes the comparison.
@@ -18,7 +18,7 @@ pub enum Part {
     Uncompute,
 }
 
-impl Part {
+impl CallPart {
     /// All parts, in the order in which they run.
     pub const ALL: [Self; 3] = [Self::Compute, Self::Flip, Self::Uncompute];
 
@@ -35,9 +35,9 @@ impl Part {
 /// A stage of the oracle: a run of instructions that belong together, and a box of the paper's
 /// figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stage {
+pub struct CallStage {
     /// The part of the call.
-    pub part: Part,
+    pub part: CallPart,
     /// The name of the stage's block, or [`StageName::Surface`], [`StageName::Compare`],
     /// [`StageName::Flip`].
     pub name: StageName,
@@ -56,7 +56,7 @@ pub struct Stage {
     pub qubits: u32,
 }
 
-impl fmt::Display for Stage {
+impl fmt::Display for CallStage {
     /// Writes a name like `find_intersection 1`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.name.fmt(f)?;
@@ -70,8 +70,8 @@ impl fmt::Display for Stage {
 impl Inspection {
     /// The stages, in the order in which they run. Each instruction of the call belongs to one
     /// stage.
-    pub fn stages(&self) -> Vec<Stage> {
-        let mut stages: Vec<Stage> = Vec::new();
+    pub fn stages(&self) -> Vec<CallStage> {
+        let mut stages: Vec<CallStage> = Vec::new();
         for (block, instructions) in self.runs() {
             let (name, depth) = match (block, stages.last_mut()) {
                 (Some(block), _) => {
@@ -84,29 +84,29 @@ impl Inspection {
                 (None, Some(before)) => {
                     let (name, depth) = (before.name, before.depth);
                     let both = before.instructions.start..instructions.end;
-                    *before = Stage {
+                    *before = CallStage {
                         depth,
                         block: before.block,
-                        ..self.stage(Part::Compute, name, both)
+                        ..self.stage(CallPart::Compute, name, both)
                     };
                     continue;
                 }
                 (None, None) => (StageName::Frame, None),
             };
-            stages.push(Stage {
+            stages.push(CallStage {
                 depth,
                 block,
-                ..self.stage(Part::Compute, name, instructions)
+                ..self.stage(CallPart::Compute, name, instructions)
             });
         }
         let computed = stages.len();
-        for at in self.instructions(Part::Flip) {
+        for at in self.instructions(CallPart::Flip) {
             let instruction = self.whole.instructions[at];
             let name = match self.whole.ops[instruction.op as usize] {
                 Op::Phase { .. } => StageName::Flip,
                 _ => StageName::Compare,
             };
-            let mut stage = self.stage(Part::Flip, name, at..at + 1);
+            let mut stage = self.stage(CallPart::Flip, name, at..at + 1);
             stage.block = Some(instruction.block);
             stage.inverse = instruction.inverse;
             stages.push(stage);
@@ -115,8 +115,8 @@ impl Inspection {
         for place in (0..computed).rev() {
             let Range { start, end: after } = stages[place].instructions;
             let name = stages[place].name;
-            let stage = self.stage(Part::Uncompute, name, end - after..end - start);
-            stages.push(Stage {
+            let stage = self.stage(CallPart::Uncompute, name, end - after..end - start);
+            stages.push(CallStage {
                 depth: stages[place].depth,
                 block: stages[place].block,
                 inverse: true,
@@ -126,8 +126,8 @@ impl Inspection {
         stages
     }
 
-    fn stage(&self, part: Part, name: StageName, instructions: Range<usize>) -> Stage {
-        Stage {
+    fn stage(&self, part: CallPart, name: StageName, instructions: Range<usize>) -> CallStage {
+        CallStage {
             part,
             name,
             depth: None,
@@ -143,7 +143,7 @@ impl Inspection {
     /// scope leaves are charged to the block around it, but belong to the run.
     fn runs(&self) -> Vec<(Option<BlockId>, Range<usize>)> {
         let mut runs: Vec<(Option<BlockId>, Range<usize>)> = Vec::new();
-        for at in self.instructions(Part::Compute) {
+        for at in self.instructions(CallPart::Compute) {
             let block = self.below_root(self.whole.instructions[at].block);
             match runs.as_mut_slice() {
                 [.., (last, range)] if *last == block => range.end = at + 1,

@@ -23,7 +23,8 @@ comparator: { bits: 5 }
 fn inspection(sets: &[&str]) -> Inspection {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
     let scene = parse(SCENE, "lit-floor.yaml", &sets, "".as_ref()).unwrap();
-    Inspection::new(&scene.valid, None, Options::default()).unwrap()
+    let oracles = Oracles::new(&scene.valid);
+    Inspection::of_class(&oracles, None, PixelClass::default()).unwrap()
 }
 
 fn both() -> [Inspection; 2] {
@@ -34,7 +35,7 @@ fn both() -> [Inspection; 2] {
 fn parts_stages_and_blocks_each_add_up_to_the_call() {
     for inspection in both() {
         let total = inspection.total();
-        let parts = Part::ALL.map(|part| inspection.part(part));
+        let parts = CallPart::ALL.map(|part| inspection.part(part));
         assert_eq!(parts.into_iter().sum::<Cost>(), total);
         let stages = inspection.stages();
         assert_eq!(stages.iter().map(|stage| stage.cost).sum::<Cost>(), total);
@@ -47,7 +48,7 @@ fn parts_stages_and_blocks_each_add_up_to_the_call() {
         let blocks = inspection.blocks();
         assert_eq!(blocks.iter().map(|block| block.own).sum::<Cost>(), total);
         assert_eq!(blocks[0].total, total);
-        assert_eq!(blocks[0].compute, inspection.part(Part::Compute));
+        assert_eq!(blocks[0].compute, inspection.part(CallPart::Compute));
         let (roles, ancillas) = inspection.peak_by_role();
         assert_eq!(roles.iter().sum::<u32>() + ancillas, inspection.qubits);
     }
@@ -68,7 +69,10 @@ fn the_boxes_are_those_of_the_paper_and_their_inverses() {
     for inspection in both() {
         let stages = inspection.stages();
         let names: Vec<String> = stages.iter().map(ToString::to_string).collect();
-        let compute = stages.iter().filter(|s| s.part == Part::Compute).count();
+        let compute = stages
+            .iter()
+            .filter(|s| s.part == CallPart::Compute)
+            .count();
         for name in [
             "generate_ray 0",
             "find_intersection 0",
@@ -89,7 +93,7 @@ fn the_boxes_are_those_of_the_paper_and_their_inverses() {
 #[test]
 fn wires_are_computed_once_and_returned() {
     for inspection in both() {
-        let frame = Frame::new(&inspection);
+        let frame = CallDiagram::new(&inspection);
         let names: Vec<&str> = frame.wires.iter().map(|wire| wire.name.as_str()).collect();
         assert_eq!(names[..3], ["id", "comparator", "ray_0"]);
         assert_eq!(names[names.len() - 2..], ["flag", "work"]);
@@ -134,12 +138,5 @@ fn a_pixel_beside_the_film_has_no_oracle() {
         place: [1, 4],
         seed: 0,
     };
-    let _ = Inspection::of_pixel(&scene.valid, None, pixel);
-}
-
-#[test]
-#[should_panic(expected = "no costs of an oracle that is asked for")]
-fn of_no_oracles_none_is_the_most_expensive() {
-    let scene = parse(SCENE, "lit-floor.yaml", &[], "".as_ref()).unwrap();
-    let _ = Inspection::most_expensive_of(&scene.valid, &[], Some(1));
+    let _ = Inspection::of_pixel(&Oracles::new(&scene.valid), None, pixel);
 }

@@ -1,7 +1,7 @@
 //! A scene's program in one pixel, as a value.
 
 use super::Oracle;
-use qrt_circuit::export::{ExportError, Format, Tally, write_program};
+use qrt_circuit::export::{ExportCounts, ExportError, ExportFormat, write_program};
 use qrt_circuit::{Gate, Operand, Program};
 use std::io::Write;
 use std::ops::Deref;
@@ -15,9 +15,9 @@ use std::ops::Deref;
 ///
 /// ```
 /// use qrt_scene::front::parse;
-/// use qrt_core::oracle::{Options, Oracle};
+/// use qrt_core::oracle::{OracleOptions, Oracle};
 /// use qrt_circuit::Contents;
-/// use qrt_circuit::export::Format;
+/// use qrt_circuit::export::ExportFormat;
 ///
 /// # let text = "
 /// # name: lamp
@@ -31,7 +31,7 @@ use std::ops::Deref;
 /// # comparator: { bits: 2 }
 /// # ";
 /// let scene = parse(text, "lamp.yaml", &[], "".as_ref())?.valid;
-/// let oracle = Oracle::rgb(&scene, Options::default())?;
+/// let oracle = Oracle::rgb(&scene, OracleOptions::default())?;
 /// // Column 3, row 1, under the seed 7.
 /// let bound = oracle.program_at(7, [3, 1]);
 ///
@@ -53,7 +53,7 @@ use std::ops::Deref;
 /// let mut toffolis = 0;
 /// bound.each_gate(|gate| toffolis += u64::from(matches!(gate, qrt_circuit::Gate::Ccx(..))));
 /// let mut text = Vec::new();
-/// assert_eq!(bound.write(Format::OpenQasm3, &mut text)?.by_name["ccx"], toffolis);
+/// assert_eq!(bound.write(ExportFormat::OpenQasm3, &mut text)?.by_name["ccx"], toffolis);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -143,7 +143,11 @@ impl BoundProgram {
     ///
     /// # Errors
     /// An error of `out`.
-    pub fn write(&self, format: Format, out: &mut impl Write) -> Result<Tally, ExportError> {
+    pub fn write(
+        &self,
+        format: ExportFormat,
+        out: &mut impl Write,
+    ) -> Result<ExportCounts, ExportError> {
         let [column, row] = self.pixel;
         let about = format!("pixel {column}, {row}; seed {}", self.seed);
         write_program(self, &[], format, &[about], out)

@@ -1,84 +1,13 @@
 //! The budget of a scene's circuit, and the problems of a scene that has no circuit.
 
-use super::{MOST_FACES, Oracle, OracleCost, OracleError};
-use crate::compile::{self, BuildError};
-use qrt_circuit::lower::{self, Figures};
+use super::{CallCost, MOST_FACES, OracleCost, OracleError};
+use crate::compile::BuildError;
 use qrt_scene::syntax::{Circuit, Path, Problem, Problems};
 use qrt_scene::valid::ValidScene;
 use qrt_scene::{Nearest, Uncompute};
 
-/// Costs of one call of an oracle: compute, compare and flip, uncompute.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CallCost {
-    /// Number of qubits that a call needs: the maximum in use at any time.
-    pub qubits: u64,
-    /// Number of Toffoli gates of a call.
-    pub toffoli: u64,
-}
-
-impl CallCost {
-    /// The most qubits and the most Toffolis of a call of any oracle in `costs`. The two may be of
-    /// different oracles. Both are 0 if there are none.
-    pub fn greatest(costs: &[OracleCost]) -> Self {
-        let calls = || costs.iter().map(|cost| cost.call);
-        Self {
-            qubits: calls().map(|call| call.qubits).max().unwrap_or(0),
-            toffoli: calls().map(|call| call.toffoli).max().unwrap_or(0),
-        }
-    }
-}
-
-/// The cost of a call of the most expensive oracle in `channels`, each of which is of one channel.
-pub fn call_cost(channels: &[Oracle]) -> CallCost {
-    let known = &mut compile::Known::default();
-    let priced = channels.iter().map(|oracle| {
-        let figures = figures(oracle, known);
-        (toffoli(oracle, &figures), oracle, figures)
-    });
-    // The first of equals.
-    let dearest = priced.reduce(|most, next| if most.0 < next.0 { next } else { most });
-    let none = CallCost {
-        qubits: 0,
-        toffoli: 0,
-    };
-    dearest.map_or(none, |(_, oracle, figures)| cost_by(oracle, &figures))
-}
-
-/// The figures of an oracle's operations, followed by those of [`Oracle::flip`] of channel number 0.
-pub(super) fn figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<Figures> {
-    let program = &oracle.program;
-    let mut figures = known.figures(program.ops.iter(), &program.registers);
-    // Each channel compares a number of its own, into the same flag.
-    let flip = oracle.flip_steps(0);
-    let width = |register| program.width(register);
-    figures.extend(flip.ops.iter().map(|op| known.alike.figures(op, width)));
-    figures
-}
-
-/// The cost of a call, by the figures of its operations.
-pub(super) fn cost_by(oracle: &Oracle, figures: &[Figures]) -> CallCost {
-    let qubits = lower::most_qubits_by(&oracle.upto_flip(), |op| figures[op].borrowed);
-    CallCost {
-        qubits: u64::from(qubits),
-        toffoli: toffoli(oracle, figures),
-    }
-}
-
-fn toffoli(oracle: &Oracle, figures: &[Figures]) -> u64 {
-    let program = &oracle.program;
-    let toffoli = |op: usize| figures[op].costs[0].toffoli;
-    let once = program.instructions.iter();
-    let once: u64 = once
-        .map(|instruction| toffoli(instruction.op as usize))
-        .sum();
-    let flip = oracle.flip_steps(0);
-    let steps = flip.order.iter();
-    let steps = steps.map(|(step, _)| toffoli(program.ops.len() + *step as usize));
-    2 * once + steps.sum::<u64>()
-}
-
 /// Reports the limits of the scene's `budget` that `costs` exceed, each with advice. `costs` are those
-/// of [`oracle_costs`](super::oracle_costs), or of the oracles that are run. Each limit holds for every
+/// of [`Oracles::costs`](super::Oracles::costs), or of the oracles that are run. Each limit holds for every
 /// oracle. [`qrt_scene::front::Loaded::report`] shows the problems in the scene.
 ///
 /// # Errors
@@ -141,6 +70,19 @@ impl OracleError {
                 let what = Circuit::TooManyFaces { faces, most };
                 Problem::new(root.key("geometry"), what)
             }
+            &Self::SphereInTable { primitive } => {
+                let place = root.key("geometry").item(primitive).key("sphere");
+                Problem::new(place, Circuit::SphereInTable)
+            }
+            &Self::SmallSphere {
+                primitive,
+                fraction,
+                needed,
+            } => {
+                let place = root.key("geometry").item(primitive).key("sphere");
+                let what = Circuit::SmallSphere { fraction, needed };
+                Problem::new(place.key("radius"), what)
+            }
         }
     }
 }
@@ -148,10 +90,9 @@ impl OracleError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::{
-        Options, Oracle, OracleName, oracle_costs, oracle_costs_knowing, oracle_costs_of_class,
-    };
+    use crate::oracle::{Oracle, OracleName, OracleOptions, Oracles, call_cost};
     use crate::tracer::PixelClass;
+    use qrt_circuit::lower;
     use qrt_scene::front::{Loaded, parse};
     use qrt_scene::syntax::codes;
 
@@ -269,10 +210,12 @@ sampling:
             scene.circuit.uncompute = uncompute;
             let scene = scene.validate("".as_ref()).unwrap();
             let (channels, rgb) = Oracle::all(&scene).unwrap();
-            let (sooner, costs) = Oracle::rgb_and_costs(&scene).unwrap();
+            let oracles = Oracles::new(&scene);
+            let sooner = oracles.all_channels(PixelClass::default()).unwrap();
             assert_eq!(rgb.program, sooner.program);
             // No lamp is sampled: there is one class.
-            assert_eq!(oracle_costs(&scene).unwrap(), costs);
+            let costs = oracles.costs_of(PixelClass::default()).unwrap();
+            assert_eq!(oracles.costs().unwrap(), costs);
             let cost = OracleCost::most_expensive(costs).unwrap().call;
             assert_eq!(call_cost(&channels), cost);
             let toffoli = |oracle: &Oracle| lower::toffoli(&oracle.whole(0));
@@ -296,13 +239,10 @@ sampling:
             "{ bits: [4, 4], light: [4, 4] }",
         );
         let scene = parse(&text, "tilted.yaml", &[], "".as_ref()).unwrap().valid;
-        let costs = oracle_costs(&scene).unwrap();
+        let costs = Oracles::new(&scene).costs().unwrap();
         assert_eq!(costs.len(), 6);
-        let alone = PixelClass::ALL.map(|class| oracle_costs_of_class(&scene, class).unwrap());
+        let alone = PixelClass::ALL.map(|class| Oracles::new(&scene).costs_of(class).unwrap());
         assert_eq!(alone.concat(), costs);
-        let (_, known) = Oracle::rgb_and_costs(&scene).unwrap();
-        assert_eq!(costs[..3], known);
-        assert_eq!(oracle_costs_knowing(&scene, &known).unwrap(), costs);
     }
 
     /// A cosine is at most 1, and so are its powers.
@@ -313,7 +253,7 @@ sampling:
                 "phong: {{ diffuse: [0.2, 0.2, 0.2], specular: [0.5, 0.5, 0.5], exponent: {exponent} }}"
             );
             let loaded = tilted(&material);
-            let oracle = Oracle::rgb(&loaded.valid, Options::default());
+            let oracle = Oracle::rgb(&loaded.valid, OracleOptions::default());
             assert!(oracle.is_ok(), "{exponent}: {:?}", oracle.err());
         }
     }
@@ -328,7 +268,7 @@ sampling:
             ))
         };
         let wide = bsdf("1e6*cos_i*cos_o");
-        let oracle = Oracle::rgb(&wide.valid, Options::default());
+        let oracle = Oracle::rgb(&wide.valid, OracleOptions::default());
         let error = oracle.err().unwrap();
         let text = wide.report(vec![error.problem()]).to_string();
         for expected in [
@@ -339,7 +279,7 @@ sampling:
             assert!(text.contains(expected), "{text}");
         }
         let narrow = bsdf("min(1e6*cos_i*cos_o, 3)");
-        let oracle = Oracle::rgb(&narrow.valid, Options::default());
+        let oracle = Oracle::rgb(&narrow.valid, OracleOptions::default());
         assert!(oracle.is_ok(), "{:?}", oracle.err());
     }
 

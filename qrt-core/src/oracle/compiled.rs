@@ -16,7 +16,12 @@ use std::marker::PhantomData;
 /// An oracle that was compiled together with the program that uses it.
 ///
 /// The code exists once, generic over the [`Machine`] that runs it: a [`Recorder`] turns it into the program
-/// again, and a machine of lanes computes with it.
+/// again, and a machine that holds numbers computes with it.
+#[diagnostic::on_unimplemented(
+    message = "there is no code of the circuit of `{Self}`",
+    label = "not compiled to code",
+    note = "`qrt!` writes code for circuits of at most 20,000 operations"
+)]
 pub trait CompiledOracle: Sized + 'static {
     /// The parts of the oracle that are not in the code: its registers, blocks and channels.
     const OUTLINE: &'static Outline;
@@ -68,6 +73,7 @@ pub trait CompiledOracle: Sized + 'static {
             fraction: outline.fraction,
             points: Self::points()?,
             film: [scene.film.width, scene.film.height],
+            pixel: None,
             places: outline.places.to_vec(),
             sharing: outline.sharing,
         })

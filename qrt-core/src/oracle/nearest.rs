@@ -2,9 +2,9 @@
 //! known.
 
 use super::target::target;
-use super::{Options, OracleError, register_of};
+use super::{OracleError, OracleOptions, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
-use crate::tracer::{Arith, FaceTable, Named, Part, PixelClass, Quantity, Stage};
+use crate::tracer::{Arith, FaceTable, Named, PixelClass, Quantity, Stage, TracerPart};
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_scene::sampling::PathPoints;
@@ -79,14 +79,14 @@ impl NearestOracle {
     pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
         let stage = Stage::<1>::new(scene, [0], PixelClass::MayMeetLamp);
         let list = FaceTable::new(&stage);
-        if list.is_empty() {
+        if list.is_empty() && !list.lacks_spheres {
             return Ok(None);
         }
-        fits_table(&list)?;
+        fits_table(scene, &list)?;
         let points = PathPoints::new(&scene.scene().sampling)?;
-        let options = Options::default();
+        let options = OracleOptions::default();
         let strategy = options.strategy(scene)?;
-        let target = target(scene, &stage, &points, strategy, options.passes);
+        let target = target(scene, &stage, &points, strategy, options)?;
         let fraction = target.fraction;
         let mut builder = Builder::new(target);
         let cx = &mut builder;
@@ -100,13 +100,13 @@ impl NearestOracle {
             cx.given_number("best.distance", Role::Comparator, most as f64 / units);
         let (best_primitive, number) = cx.given_index("best.primitive", Role::Comparator, width);
 
-        cx.enter(Part::GenerateRay(0));
-        let ray = stage.camera.ray(cx, stage.film_bits);
+        cx.enter(TracerPart::GenerateRay(0));
+        let ray = stage.camera.ray(cx, stage.film_bits, stage.lens.as_ref());
         cx.leave();
         let named = |quantity| Named { depth: 0, quantity };
         cx.named(named(Quantity::Origin), &ray.origin);
         cx.named(named(Quantity::Direction), &ray.direction);
-        cx.enter(Part::FindIntersection(0));
+        cx.enter(TracerPart::FindIntersection(0));
         let (meets, distance) = list.meet(cx, &ray, face);
         let distance = cx.held(distance);
         cx.leave();
@@ -123,6 +123,7 @@ impl NearestOracle {
 
         let distance = cx.operand_of(distance).0;
         let id = builder.id();
+        scene.count_recording();
         let recorded = builder.finish()?;
         let parameters = recorded.parameters.clone();
         let roots = register_of(distance)
@@ -236,7 +237,11 @@ fn index_bits(faces: usize) -> u32 {
 }
 
 /// Checks that a table holds the faces.
-pub(super) fn fits_table(list: &FaceTable) -> Result<(), OracleError> {
+pub(super) fn fits_table(scene: &ValidScene, list: &FaceTable) -> Result<(), OracleError> {
+    if let (true, Some(ball)) = (list.lacks_spheres, scene.balls().first()) {
+        let primitive = ball.primitive;
+        return Err(OracleError::SphereInTable { primitive });
+    }
     if list.len() > MOST_FACES {
         return Err(OracleError::TooManyFaces { faces: list.len() });
     }

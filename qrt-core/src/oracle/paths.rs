@@ -237,7 +237,7 @@ impl PathFormats {
         let t_max = stage.t_max.max(stage.camera.t_max).max(1.0) / scale;
         let bound = stage.bound().into_iter().fold(0.0, f64::max);
         let colour = if bound > 0.0 { above(bound) } else { 0 };
-        let faces = scene.polygons().len() as u32;
+        let faces = scene.surface_of_faces().len() as u32;
         let materials = scene.surfaces().len() as u32;
         let count = |most: u32| PathFormat::exact(Type::UInt, (32 - most.leading_zeros()).max(1));
         Some(Self {

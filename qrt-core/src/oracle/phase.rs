@@ -51,7 +51,7 @@ impl Oracle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::Options;
+    use crate::oracle::OracleOptions;
     use qrt_circuit::quantum::QuantumGate;
     use qrt_scene::front::parse;
 
@@ -61,7 +61,7 @@ mod tests {
         let short = ["precision.fraction=8", "comparator.bits=4"].map(String::from);
         let scene = parse(text, "floor.yaml", &short, "".as_ref());
         let scene = scene.unwrap().valid;
-        let oracle = Oracle::rgb(&scene, Options::default()).unwrap();
+        let oracle = Oracle::rgb(&scene, OracleOptions::default()).unwrap();
         let gates = |oracle: &PhaseOracle, control| {
             let mut all = Vec::new();
             let done = oracle.apply(control, &mut |gate: QuantumGate<'_>| {

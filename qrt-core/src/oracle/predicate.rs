@@ -18,7 +18,7 @@
 mod traced;
 
 use super::paths::{PathFormats, PathInputs, PathNumber, PathScene};
-use super::{Channel, Options, Oracle, OracleError, PREDICATE_CHANNEL};
+use super::{Channel, Oracle, OracleError, OracleOptions, PREDICATE_CHANNEL};
 use crate::compile::{Label, StageName};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::lower::{self, Cost};
@@ -180,7 +180,7 @@ impl Predicate {
     ///
     /// # Errors
     /// As [`Oracle::new`].
-    pub fn oracle(&self, marks: Marks, options: Options) -> Result<Oracle, OracleError> {
+    pub fn oracle(&self, marks: Marks, options: OracleOptions) -> Result<Oracle, OracleError> {
         let (mut oracle, registers) =
             traced(self.scene, &self.formats, &self.numbers, marks, options)?;
         let good = self.append(&mut oracle.program, &registers);
@@ -251,7 +251,13 @@ impl Oracle {
         formats: &PathFormats,
         numbers: &[PathNumber],
     ) -> Result<(Self, Vec<RegisterId>), OracleError> {
-        traced(scene, formats, numbers, Marks::Paths, Options::default())
+        traced(
+            scene,
+            formats,
+            numbers,
+            Marks::Paths,
+            OracleOptions::default(),
+        )
     }
 
     /// The cost of one query in gates, and the most qubits in use at any time. The query is for

@@ -3,9 +3,10 @@
 use super::nearest::fits_table;
 use super::target::target;
 use super::{
-    Channel, LUMINANCE, LUMINANCE_CHANNEL, Options, Oracle, OracleError, luminance, register_of,
+    Channel, LUMINANCE, LUMINANCE_CHANNEL, Oracle, OracleError, OracleOptions, luminance,
+    register_of,
 };
-use crate::compile::{self, Builder, NamedPlace, Real, Recorded, Role, Strategy};
+use crate::compile::{self, Builder, NamedPlace, Passes, RealValue, Recorded, Role, Strategy};
 use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
@@ -29,17 +30,18 @@ pub(super) enum PrimaryHit {
 }
 
 /// The colours of a path, and the register of its primary hit if the hit is an input.
-pub(super) fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
+pub(super) fn record<'a, N: tracer::NearestSearch<Builder<'a>>, const C: usize>(
+    scene: &ValidScene,
     builder: &mut Builder<'a>,
     stage: &Stage<C>,
     nearest: &N,
     first: PrimaryHit,
-) -> Result<([Real; C], Option<RegisterId>), OracleError> {
+) -> Result<([RealValue; C], Option<RegisterId>), OracleError> {
     let list = FaceTable::new(stage);
-    if first == PrimaryHit::Traced || list.is_empty() {
+    if first == PrimaryHit::Traced || list.is_empty() && !list.lacks_spheres {
         return Ok((trace(builder, stage, nearest), None));
     }
-    fits_table(&list)?;
+    fits_table(scene, &list)?;
     // One number more than faces, which stands for none.
     let width = list.len().ilog2() + 1;
     let (register, face) = builder.given_index("nearest", Role::Id, width);
@@ -47,11 +49,20 @@ pub(super) fn record<'a, N: tracer::Nearest<Builder<'a>>, const C: usize>(
     Ok((trace(builder, stage, &nearest), Some(register)))
 }
 
+/// A colour that is counted, as the builder's value.
+struct Output {
+    /// The number of the channel.
+    number: usize,
+    colour: RealValue,
+    /// The upper bound of the colour, in radiance.
+    scale: f64,
+}
+
 /// A recording of a scene. `known` is an oracle without a program.
 pub(super) struct Recording {
     recorded: Recorded,
     strategy: Strategy,
-    options: Options,
+    options: OracleOptions,
     known: Oracle,
     ops: Mutex<compile::Known>,
 }
@@ -60,7 +71,7 @@ impl Recording {
     pub(super) fn new<const C: usize>(
         scene: &ValidScene,
         channels: [usize; C],
-        options: Options,
+        options: OracleOptions,
         first: PrimaryHit,
     ) -> Result<Self, OracleError> {
         Self::with(scene, channels, options, first, |_, _, _| Vec::new())
@@ -69,7 +80,7 @@ impl Recording {
     /// Records all three channels, followed by their luminance.
     pub(super) fn with_luminance(
         scene: &ValidScene,
-        options: Options,
+        options: OracleOptions,
     ) -> Result<Self, OracleError> {
         Self::with(
             scene,
@@ -90,27 +101,30 @@ impl Recording {
                 let sum = shares
                     .into_iter()
                     .reduce(|sum, share| builder.add(sum, share));
-                sum.map(|sum| (LUMINANCE_CHANNEL, sum, scale))
-                    .into_iter()
-                    .collect()
+                sum.map(|colour| Output {
+                    number: LUMINANCE_CHANNEL,
+                    colour,
+                    scale,
+                })
+                .into_iter()
+                .collect()
             },
         )
     }
 
-    /// Records the channels, and others that `more` makes of their colours: number, colour and
-    /// scale.
+    /// Records the channels, and others that `more` makes of their colours and bounds.
     fn with<const C: usize>(
         scene: &ValidScene,
         channels: [usize; C],
-        options: Options,
+        options: OracleOptions,
         first: PrimaryHit,
-        more: impl FnOnce(&mut Builder<'_>, &[Real; C], &[f64; C]) -> Vec<(usize, Real, f64)>,
+        more: impl FnOnce(&mut Builder<'_>, &[RealValue; C], &[f64; C]) -> Vec<Output>,
     ) -> Result<Self, OracleError> {
         let written = scene.scene();
         let stage = Stage::new(scene, channels, options.class).relative();
         let points = PathPoints::new(&written.sampling)?;
         let strategy = options.strategy(scene)?;
-        let target = target(scene, &stage, &points, strategy, options.passes);
+        let target = target(scene, &stage, &points, strategy, options)?;
         let (film, fraction) = (target.film, target.fraction);
         let mut builder = Builder::new(target).with_values(stage.values(scene));
         let bits = written.comparator.bits;
@@ -119,15 +133,30 @@ impl Recording {
         let (colours, nearest) = match written.circuit.nearest {
             Nearest::Running => {
                 let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
-                record(&mut builder, &stage, &search, first)?
+                record(scene, &mut builder, &stage, &search, first)?
             }
-            Nearest::Paper => record(&mut builder, &stage, &Records(&stage), first)?,
+            Nearest::Paper => record(
+                scene,
+                &mut builder,
+                &stage,
+                &Records::new(&stage, 1.0 / (1_u64 << fraction) as f64),
+                first,
+            )?,
         };
         let bounds = stage.bound();
         let more = more(&mut builder, &colours, &bounds);
-        let own = (0..C).map(|k| (channels[k], colours[k], bounds[k]));
+        let own = (0..C).map(|k| Output {
+            number: channels[k],
+            colour: colours[k],
+            scale: bounds[k],
+        });
         let mut outputs = Vec::new();
-        for (number, colour, scale) in own.chain(more) {
+        for Output {
+            number,
+            colour,
+            scale,
+        } in own.chain(more)
+        {
             let (colour, count) = builder.counted(colour, bits, written.comparator.at);
             outputs.push(Channel {
                 number,
@@ -138,6 +167,7 @@ impl Recording {
         }
         let id = builder.id();
         let sharing = builder.sharing();
+        scene.count_recording();
         let mut recorded = builder.finish()?;
         for named in &mut recorded.names {
             if named.name.quantity == Quantity::Throughput {
@@ -155,6 +185,7 @@ impl Recording {
             fraction,
             points,
             film,
+            pixel: options.pixel,
             places: Vec::new(),
             sharing,
         };
@@ -179,6 +210,20 @@ impl Recording {
 
     /// The same under another `strategy` that needs the same recording ([`Strategy::recording`]).
     pub(super) fn oracle_under(&self, strategy: Strategy, places: &[usize]) -> Oracle {
+        self.assembled((strategy, self.options.passes), &self.ops, places)
+    }
+
+    /// The same under other `passes` that need the same recording ([`Passes::same_recording`]).
+    pub(super) fn oracle_with(&self, passes: Passes, places: &[usize]) -> Oracle {
+        self.assembled((self.strategy, passes), &Mutex::default(), places)
+    }
+
+    fn assembled(
+        &self,
+        (strategy, passes): (Strategy, Passes),
+        ops: &Mutex<compile::Known>,
+        places: &[usize],
+    ) -> Oracle {
         let mut outputs: Vec<Channel> = places
             .iter()
             .map(|&place| self.known.channels[place].clone())
@@ -190,10 +235,10 @@ impl Recording {
         let (mut program, renamed) = compile::assemble(
             self.recorded.clone(),
             &roots,
-            self.options.passes,
+            passes,
             strategy,
             &inputs,
-            &self.ops,
+            ops,
         );
         let rename = |operand: Operand| match operand {
             Operand::Word(word) => Operand::Word(Word {

@@ -1,12 +1,12 @@
 //! The arithmetic that the tracer computes with.
 
-use super::{Sampled, Segment};
+use super::Sampled;
 use qrt_scene::expr::Function;
 pub use qrt_scene::sampling::{Axis, Coordinate};
 
 /// A stage of the tracer, as in the paper's figure, or a part of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum TracerPart {
     /// The ray of this depth: the camera's, or the one that a surface scatters.
     GenerateRay(usize),
     /// The nearest intersection of the ray of this depth.
@@ -22,6 +22,10 @@ pub enum Part {
     Plane(usize),
     /// One primitive (by number), within an intersection.
     Primitive(usize),
+    /// One sphere (by its face's number), within an intersection.
+    Ball(usize),
+    /// The light of the sky, at the end of the ray of this depth.
+    Sky(usize),
     /// The light that the vertex at the end of the ray of this depth emits towards the camera.
     Shade(usize),
     /// The side on which the ray of this depth meets the surface.
@@ -46,6 +50,8 @@ pub enum Quantity {
     Found,
     /// The cell of the unit square that samples the point on a lamp.
     Lamp,
+    /// The cell of the unit square that samples the point on the camera's lens.
+    Lens,
     /// The point where the ray starts, a vector in the scene's frame as the circuit scales it.
     Origin,
     /// The cell of the unit square that it samples: its two coordinates.
@@ -63,6 +69,7 @@ impl Quantity {
             Self::Face => "face",
             Self::Found => "found",
             Self::Lamp => "lamp",
+            Self::Lens => "lens",
             Self::Origin => "origin",
             Self::Sample => "sample",
             Self::Throughput => "throughput",
@@ -222,7 +229,7 @@ pub trait Arith: Sized {
     }
     /// Begins `part`, which lasts until [`Arith::leave`].
     #[inline(always)]
-    fn enter(&mut self, _part: Part) {}
+    fn enter(&mut self, _part: TracerPart) {}
     /// Ends the part that the last open [`Arith::enter`] began.
     #[inline(always)]
     fn leave(&mut self) {}
@@ -278,3 +285,28 @@ pub trait Arith: Sized {
     /// The pixel's column and row.
     fn pixel(&mut self) -> [Self::Real; 2];
 }
+
+/// A ray of a path and its hit: see [`Arith::traced`].
+pub struct Segment<A: Arith> {
+    /// The point where the ray starts, in stage units.
+    pub origin: [A::Real; 3],
+    /// The direction of the ray.
+    pub direction: [A::Real; 3],
+    /// True if the path has not ended before the ray.
+    pub goes: A::Bool,
+    /// True if the path has not ended before the ray, and the ray meets a face.
+    pub found: A::Bool,
+    /// As [`super::Hit::distance`].
+    pub distance: A::Real,
+    /// As [`super::Hit::face`].
+    pub face: A::Index,
+    /// As [`super::Hit::front`].
+    pub front: Option<A::Bool>,
+}
+
+impl<A: Arith> Clone for Segment<A> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<A: Arith> Copy for Segment<A> {}

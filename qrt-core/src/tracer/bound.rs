@@ -10,7 +10,7 @@
 //! B_k(s) = N(s) + W(s) max over t that s sees of (F(s, t) Le(t) + B_{k+1}(t))
 //! ```
 //!
-//! If no lamp is sampled, `N` is 0 and `F` is 1. A path from the camera carries at most the greatest
+//! Beside the places, `s` sees the sky, whose light counts wholly. If no lamp is sampled, `N` is 0 and `F` is 1. A path from the camera carries at most the greatest
 //! `B_0` of the places that the camera sees, plus `Le` if the path may meet a lamp directly. Places
 //! are those of [`Places`]: sides of faces, or surfaces.
 
@@ -18,12 +18,13 @@ use super::bsdf::ScatterStage;
 use super::places::Places;
 use super::refraction::Refraction;
 
-/// An upper bound of the colour of every path, per channel. It includes the emission at the primary
+/// An upper bound of the colour of every path, per channel, given the radiance of each surface and the
+/// greatest of the sky. It includes the emission at the primary
 /// hit only if `direct`. If there is a `refraction`, its bound replaces the weights of the glass
 /// surfaces for which it holds.
 pub(crate) fn colour<const C: usize>(
     places: &Places,
-    radiance: &[[f64; C]],
+    (radiance, sky): (&[[f64; C]], [f64; C]),
     scatters: &[ScatterStage<C>],
     direct: bool,
     refraction: Option<&Refraction>,
@@ -40,7 +41,7 @@ pub(crate) fn colour<const C: usize>(
             }
             let samples = scatter.samples_lights(surface);
             let lights = scatter.lights.as_ref();
-            let mut most = [0.0; C];
+            let mut most = sky;
             for other in places.next(place) {
                 let factor =
                     lights.map_or(1.0, |l| l.emission_bound(places, [place, other], samples));
@@ -57,7 +58,7 @@ pub(crate) fn colour<const C: usize>(
         };
         beyond = (0..places.len()).map(at).collect();
     }
-    let mut bound = [0.0; C];
+    let mut bound = sky;
     for place in places.first() {
         for ((bound, beyond), emitted) in bound.iter_mut().zip(beyond[place]).zip(emitted(place)) {
             let emitted = if direct { *emitted } else { 0.0 };

@@ -1,10 +1,12 @@
 //! *Generate Ray*, for the primary ray.
 
-use super::geometry::{Geometry, NO_PLANE};
+use super::geometry::{NO_PLANE, StageGeometry};
 use super::ray::{Ray, Start};
-use super::{Arith, Coordinate, vector};
+use super::vector::Vector;
+use super::{Arith, Coordinate, Sampled, vector};
 use glam::{DVec2, DVec3};
-use qrt_scene::{Basis, Camera, Film};
+use qrt_scene::{Basis, Camera, Film, Perspective, Scene};
+use std::f64::consts::TAU;
 
 /// The camera in stage units: a ray is affine in the film position `(column + u, row + v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +33,71 @@ pub struct CameraStage {
     pub from: u32,
 }
 
+/// A thin lens in stage units. A ray starts at a point `p` of the disc around the eye, and goes towards
+/// the point at the distance `f` where all rays of its place on the film meet: with the direction `D` of
+/// the pinhole's ray, whose forward part is 1, its direction is `D - p / f`.
+#[derive(Clone, Debug)]
+pub(crate) struct LensStage {
+    /// The radius times the unit vectors to the right and upwards.
+    axes: [[f64; 3]; 2],
+    /// `-1 / f`
+    bent: f64,
+    /// The distance of the point from the eye, as a share of the radius.
+    away: Sampled,
+    /// Cosine and sine of its azimuth.
+    azimuth: [Sampled; 2],
+}
+
+impl LensStage {
+    /// The lens of `scene`, if a point on one is sampled.
+    pub(crate) fn new(scene: &Scene, geometry: &StageGeometry) -> Option<Self> {
+        let (lens, bits) = (scene.lens()?, scene.sampling.lens()?);
+        let basis = Basis::new(&scene.camera);
+        let radius = 0.5 * lens.aperture * geometry.scale;
+        // Components that are only rounding errors cost a circuit products.
+        let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
+        let axis = |unit: DVec3| (unit.map(clean) * radius).to_array();
+        Some(Self {
+            axes: [axis(basis.right), axis(basis.up)],
+            bent: -1.0 / (lens.focus * geometry.scale),
+            away: Sampled::of_centre(bits[0], f64::sqrt),
+            azimuth: [
+                Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
+                Sampled::of_centre(bits[1], |v| libm::sin(TAU * v)),
+            ],
+        })
+    }
+
+    /// The point on the lens, from the eye.
+    #[inline(always)]
+    fn point<A: Arith>(&self, cx: &mut A) -> Vector<A> {
+        let [u, v] = [
+            cx.coordinate(Coordinate::lens_u()),
+            cx.coordinate(Coordinate::lens_v()),
+        ];
+        let away = cx.sampled(&self.away, u);
+        let [cos, sin] = [
+            cx.sampled(&self.azimuth[0], v),
+            cx.sampled(&self.azimuth[1], v),
+        ];
+        let (x, y) = (math!(cx, away * cos), math!(cx, away * sin));
+        let [right, up] = self.axes;
+        vector!(cx, constant(right) * x + constant(up) * y)
+    }
+}
+
 /// Points from which primary rays start, or the corners of the area that they start from.
 pub(crate) fn ray_origins(camera: &Camera, film: Film) -> Vec<DVec3> {
     let basis = Basis::new(camera);
-    if basis.perspective {
+    if let Camera::Perspective(Perspective {
+        lens: Some(lens), ..
+    }) = camera
+    {
+        let [x, y] = [basis.right, basis.up].map(|axis| axis * (0.5 * lens.aperture));
+        [x + y, x - y, -x - y, y - x]
+            .map(|corner| basis.eye + corner)
+            .to_vec()
+    } else if basis.perspective {
         vec![basis.eye]
     } else {
         basis
@@ -73,10 +136,8 @@ impl View {
         let Basis {
             eye,
             forward,
-            right,
-            up,
-            half,
             perspective,
+            ..
         } = self.basis;
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         // Only if the eye is well behind the plane, so that rounding cannot bring it in front.
@@ -88,6 +149,39 @@ impl View {
         if normal.normalize().dot(toward) < -1e-9 {
             return Seen::Not;
         }
+        self.within(corners)
+    }
+
+    /// An outline on the film of a box, given by two opposite corners.
+    pub(super) fn box_outline(&self, [low, high]: [DVec3; 2]) -> Seen {
+        let corner =
+            |bits: usize| DVec3::from_array([0, 1, 2].map(|k| [low, high][bits >> k & 1][k]));
+        let corners: [DVec3; 8] = std::array::from_fn(corner);
+        let Seen::Within(points) = self.within(&corners) else {
+            return self.within(&corners);
+        };
+        let low = points.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
+        let high = points
+            .iter()
+            .fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
+        Seen::Within(vec![
+            low,
+            DVec2::new(high.x, low.y),
+            high,
+            DVec2::new(low.x, high.y),
+        ])
+    }
+
+    /// The points on the film of points of the scene.
+    fn within(&self, corners: &[DVec3]) -> Seen {
+        let Basis {
+            eye,
+            forward,
+            right,
+            up,
+            half,
+            perspective,
+        } = self.basis;
         let size = corners
             .iter()
             .map(|c| (*c - eye).length())
@@ -111,7 +205,7 @@ impl View {
 
 impl CameraStage {
     /// Makes `camera` ready for the tracer, in stage units of `geometry`.
-    pub fn new(camera: &Camera, film: Film, geometry: &Geometry, unit: bool) -> Self {
+    pub fn new(camera: &Camera, film: Film, geometry: &StageGeometry, unit: bool) -> Self {
         let basis = Basis::new(camera);
         let [upper_left, upper_right, lower_left, _] = basis.corners(film);
         let column = (upper_right - upper_left) / f64::from(film.width);
@@ -141,7 +235,12 @@ impl CameraStage {
 
     /// The primary ray of a path: the paper's *Generate Ray* over `primaryRayId`.
     #[inline(always)]
-    pub(crate) fn ray<A: Arith>(&self, cx: &mut A, bits: [u32; 2]) -> Ray<A> {
+    pub(crate) fn ray<A: Arith>(
+        &self,
+        cx: &mut A,
+        bits: [u32; 2],
+        lens: Option<&LensStage>,
+    ) -> Ray<A> {
         let u = cx.coordinate(Coordinate::u(0));
         let v = cx.coordinate(Coordinate::v(0));
         let u = cx.centre(u, bits[0]);
@@ -150,8 +249,14 @@ impl CameraStage {
         let (x, y) = (math!(cx, column + u), math!(cx, row + v));
         let columns = vector!(cx, constant(self.column) * x);
         let rows = vector!(cx, constant(self.row) * y);
-        let moving = vector!(cx, constant(self.corner) + columns + rows);
-        let fixed = vector::constant(cx, self.fixed);
+        let mut moving = vector!(cx, constant(self.corner) + columns + rows);
+        let mut fixed = vector::constant(cx, self.fixed);
+        if let Some(lens) = lens {
+            let point = lens.point(cx);
+            let bent = cx.real(lens.bent);
+            fixed = vector!(cx, fixed + point);
+            moving = vector!(cx, moving + point * bent);
+        }
         let (origin, direction) = match (self.perspective, self.unit) {
             // The forward part alone has length 1.
             (true, true) => (fixed, vector::normalize(cx, &moving, 1.0)),

@@ -6,7 +6,7 @@
 
 use super::sampled::TABLE_BITS;
 use super::{Arith, Axis, Coordinate, Sampled};
-use qrt_scene::expr::{Domain, Expr, Id, Interval, Node, Variable, VariableSet, Variables};
+use qrt_scene::expr::{Domain, Expr, ExprNode, Id, Interval, Variable, VariableSet, Variables};
 use qrt_scene::sampling::cell_centre;
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ enum Step {
     Sampled(Axis, Sampled),
     /// An operation on earlier steps, those of the node's operands in their order, and a bound of
     /// the absolute values that it takes.
-    Node(Node, [usize; 4], f64),
+    Node(ExprNode, [usize; 4], f64),
 }
 
 /// Expressions in `u`, `v` and angles, compiled together for one depth.
@@ -76,7 +76,7 @@ impl Compiled {
     /// The value of expression `root`, if it is the same for all paths.
     pub(crate) fn constant(&self, root: usize) -> Option<f64> {
         match self.steps[self.roots[root]] {
-            Step::Node(Node::Number(value), ..) => Some(value),
+            Step::Node(ExprNode::Number(value), ..) => Some(value),
             _ => None,
         }
     }
@@ -115,26 +115,26 @@ impl Compiled {
                 Step::Node(node, operands, most) => (node, *operands, *most),
             };
             values[number] = match node {
-                Node::Number(value) => cx.real(*value),
-                Node::Variable(Variable::CosO) => angles.cos_o,
-                Node::Variable(Variable::CosI) => angles.cos_i,
+                ExprNode::Number(value) => cx.real(*value),
+                ExprNode::Variable(Variable::CosO) => angles.cos_o,
+                ExprNode::Variable(Variable::CosI) => angles.cos_i,
                 // `u` and `v` are tables, so they do not occur here.
-                Node::Variable(Variable::CosA | Variable::U | Variable::V) => angles.cos_a,
-                Node::Add(..) => cx.add(values[a], values[b]),
-                Node::Sub(..) => cx.sub(values[a], values[b]),
-                Node::Mul(..) => cx.mul(values[a], values[b]),
-                Node::Div(..) => cx.quotient(values[a], values[b], most),
-                Node::Min(..) => cx.min(values[a], values[b]),
-                Node::Max(..) => cx.max(values[a], values[b]),
-                Node::Pow(..) => cx.pow(values[a], values[b]),
-                Node::Neg(..) => cx.neg(values[a]),
-                Node::Abs(..) => cx.abs(values[a]),
-                Node::Sqrt(..) => cx.sqrt(values[a]),
-                Node::Atan2(..) => cx.atan2(values[a], values[b]),
-                Node::IfLess(..) => {
+                ExprNode::Variable(Variable::CosA | Variable::U | Variable::V) => angles.cos_a,
+                ExprNode::Add(..) => cx.add(values[a], values[b]),
+                ExprNode::Sub(..) => cx.sub(values[a], values[b]),
+                ExprNode::Mul(..) => cx.mul(values[a], values[b]),
+                ExprNode::Div(..) => cx.quotient(values[a], values[b], most),
+                ExprNode::Min(..) => cx.min(values[a], values[b]),
+                ExprNode::Max(..) => cx.max(values[a], values[b]),
+                ExprNode::Pow(..) => cx.pow(values[a], values[b]),
+                ExprNode::Neg(..) => cx.neg(values[a]),
+                ExprNode::Abs(..) => cx.abs(values[a]),
+                ExprNode::Sqrt(..) => cx.sqrt(values[a]),
+                ExprNode::Atan2(..) => cx.atan2(values[a], values[b]),
+                ExprNode::IfLess(..) => {
                     math!(cx, select(values[a] < values[b], values[x], values[y]))
                 }
-                Node::Powi(_, exponent) => {
+                ExprNode::Powi(_, exponent) => {
                     let power = integer_power(cx, values[a], exponent.unsigned_abs());
                     if *exponent < 0 {
                         let one = cx.real(1.0);
@@ -143,7 +143,7 @@ impl Compiled {
                         power
                     }
                 }
-                Node::Function(function, _) => cx.function(*function, values[a]),
+                ExprNode::Function(function, _) => cx.function(*function, values[a]),
             };
         }
         let mut results = [zero; K];
@@ -252,7 +252,7 @@ impl Compiler {
 
     fn arithmetic(
         &mut self,
-        node: &Node,
+        node: &ExprNode,
         done: &HashMap<Id, usize>,
         range: Option<Interval>,
     ) -> usize {
@@ -266,7 +266,7 @@ impl Compiler {
 
     /// Adds a number.
     fn constant(&mut self, value: f64) -> usize {
-        self.push(Step::Node(Node::Number(value), [0; 4], value.abs()))
+        self.push(Step::Node(ExprNode::Number(value), [0; 4], value.abs()))
     }
 
     /// Adds a step, or finds an equal one.
@@ -274,9 +274,11 @@ impl Compiler {
         let equal = |other: &Step| match (&step, other) {
             (Step::Sampled(a, f), Step::Sampled(b, g)) => a == b && f.same(g),
             (Step::Node(a, of_a, _), Step::Node(b, of_b, _)) => match (a, b) {
-                (Node::Number(a), Node::Number(b)) => a.to_bits() == b.to_bits(),
-                (Node::Variable(a), Node::Variable(b)) => a == b,
-                (Node::Mul(..), Node::Mul(..)) | (Node::Add(..), Node::Add(..)) => of_a == of_b,
+                (ExprNode::Number(a), ExprNode::Number(b)) => a.to_bits() == b.to_bits(),
+                (ExprNode::Variable(a), ExprNode::Variable(b)) => a == b,
+                (ExprNode::Mul(..), ExprNode::Mul(..)) | (ExprNode::Add(..), ExprNode::Add(..)) => {
+                    of_a == of_b
+                }
                 _ => false,
             },
             _ => false,

@@ -8,7 +8,7 @@
 //! If faces are missing, such as the underside of a box that stands on a floor, the edges of the hole lie
 //! in a plane of their own. This plane bounds the body like the others, and has no face.
 
-use super::geometry::Geometry;
+use super::geometry::StageGeometry;
 use super::polygon::{Plane, plane_of};
 use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE};
@@ -29,13 +29,15 @@ pub(super) struct Body {
 /// A plane that bounds a body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bound {
-    /// Its number in [`Geometry::planes`]; a number beyond these if no face of the scene is on it.
+    /// Its number in [`StageGeometry::planes`]; a number beyond these if no face of the scene is on
+    /// it.
     pub(super) number: usize,
     /// The plane itself.
     pub(super) plane: Plane,
     /// True if the body is where `p[axis] + a p[axis + 1] + b p[axis + 2]` is below the offset.
     pub(super) below: bool,
-    /// The body's faces on the plane, as places in [`Geometry::faces`]; none if they are missing.
+    /// The body's faces on the plane, as places in [`StageGeometry::faces`]; none if they are
+    /// missing.
     pub(super) faces: Vec<usize>,
 }
 
@@ -92,7 +94,7 @@ fn clipped(outline: &[DVec3], outside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
 
 /// The corners of a geometry's faces by number, each once, and the faces at each edge.
 pub(super) struct Edges {
-    /// By place in [`Geometry::faces`].
+    /// By place in [`StageGeometry::faces`].
     pub(super) corners: Vec<Vec<u32>>,
     points: Vec<DVec3>,
     /// The faces at each edge, by place.
@@ -100,7 +102,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    pub(super) fn new(geometry: &Geometry) -> Self {
+    pub(super) fn new(geometry: &StageGeometry) -> Self {
         let mut edges = Self {
             corners: Vec::new(),
             points: Vec::new(),
@@ -144,7 +146,7 @@ impl Edges {
     }
 
     /// True if two `faces` (by place) at this edge fold back upon each other there.
-    pub(super) fn fold(&self, geometry: &Geometry, edge: [u32; 2], faces: [usize; 2]) -> bool {
+    pub(super) fn fold(&self, geometry: &StageGeometry, edge: [u32; 2], faces: [usize; 2]) -> bool {
         let [start, end] = self.ends(edge);
         let [a, b] = faces.map(|place| {
             let centre = geometry.frames[geometry.faces[place].label as usize].centre;
@@ -201,7 +203,7 @@ impl Groups {
 }
 
 /// The convex bodies among the faces: planes are `tolerance` thick.
-pub(super) fn bodies(geometry: &Geometry, edges: &Edges, tolerance: f64) -> Vec<Body> {
+pub(super) fn bodies(geometry: &StageGeometry, edges: &Edges, tolerance: f64) -> Vec<Body> {
     let mut groups = Groups::new(geometry.faces.len());
     for faces in edges.at.values() {
         for pair in faces.windows(2) {
@@ -226,7 +228,7 @@ pub(super) fn bodies(geometry: &Geometry, edges: &Edges, tolerance: f64) -> Vec<
 }
 
 struct Finder<'a> {
-    geometry: &'a Geometry,
+    geometry: &'a StageGeometry,
     edges: &'a Edges,
     tolerance: f64,
     /// The number of comparisons of a corner with a plane that are left.
@@ -388,7 +390,7 @@ impl Finder<'_> {
 }
 
 /// True if other faces on the plane cover one of `faces` (by place), all of which are on it.
-pub(super) fn covered(geometry: &Geometry, plane: usize, faces: &[usize]) -> bool {
+pub(super) fn covered(geometry: &StageGeometry, plane: usize, faces: &[usize]) -> bool {
     let range = geometry.planes[plane].faces.clone();
     let outline = |place: usize| &*geometry.corners[geometry.faces[place].label as usize];
     let others: Vec<&[DVec3]> = range

@@ -1,15 +1,15 @@
 //! The face table: a face whose number is in superposition is looked up in a QROM.
 //!
-//! [`super::Geometry`] holds faces as constants, for a machine that tests all of them in turn and
-//! folds them into its code. A [`FaceTable`] holds the same faces as rows of tables, for a machine
-//! that tests one face whose number is in a register. The intersection is the same: the crossing of
-//! a ray and a plane ([`super::cross`]), and the test that it lies within the edges.
+//! [`super::StageGeometry`] holds faces as constants, for a machine that tests all of them in turn
+//! and folds them into its code. A [`FaceTable`] holds the same faces as rows of tables, for a
+//! machine that tests one face whose number is in a register. The intersection is the same: the
+//! crossing of a ray and a plane ([`super::cross`]), and the test that it lies within the edges.
 
 use super::crossing::{AxisPermuted, Crossing, cross};
 use super::geometry::NO_FACE;
 use super::intersect::{Edges, meets};
 use super::polygon::EdgeTest;
-use super::ray::{Hit, Nearest, Ray};
+use super::ray::{Hit, NearestSearch, Ray};
 use super::{Arith, Stage};
 use std::cell::Cell;
 
@@ -29,6 +29,8 @@ pub struct FaceTable {
     starts_on: Vec<u32>,
     /// The label of each face, and after the last [`NO_FACE`].
     labels: Vec<u32>,
+    /// True if the scene has spheres, which the table lacks.
+    pub(crate) lacks_spheres: bool,
 }
 
 /// One half-plane edge test of each face, as seen from the viewpoint:
@@ -47,7 +49,7 @@ impl FaceTable {
     pub fn new<const C: usize>(stage: &Stage<C>) -> Self {
         let geometry = stage.geometry();
         let camera = &stage.camera;
-        let viewpoint = if camera.perspective {
+        let viewpoint = if camera.perspective && stage.lens.is_none() {
             camera.fixed
         } else {
             [0.0; 3]
@@ -59,6 +61,7 @@ impl FaceTable {
             slots: Vec::new(),
             starts_on: Vec::new(),
             labels: Vec::new(),
+            lacks_spheres: !geometry.balls.is_empty(),
         };
         let most = geometry
             .faces
@@ -177,16 +180,16 @@ impl<A: Arith> Edges<A> for Looked<'_, A> {
 
 /// Finds nearest intersections, of which the first ray's is an input: a face's number in a
 /// [`FaceTable`], or the number of its faces for none. The hits of the other rays are searched.
-pub struct PrimaryHitGiven<'a, A: Arith, N> {
+pub(crate) struct PrimaryHitGiven<'a, A: Arith, N> {
     list: &'a FaceTable,
     first: Cell<Option<A::Index>>,
     others: &'a N,
 }
 
-impl<'a, A: Arith, N: Nearest<A>> PrimaryHitGiven<'a, A, N> {
+impl<'a, A: Arith, N: NearestSearch<A>> PrimaryHitGiven<'a, A, N> {
     /// Creates it for rays of which the first meets face number `first`. `others` finds the other
     /// hits.
-    pub fn new(list: &'a FaceTable, first: A::Index, others: &'a N) -> Self {
+    pub(crate) fn new(list: &'a FaceTable, first: A::Index, others: &'a N) -> Self {
         Self {
             list,
             first: Cell::new(Some(first)),
@@ -195,7 +198,7 @@ impl<'a, A: Arith, N: Nearest<A>> PrimaryHitGiven<'a, A, N> {
     }
 }
 
-impl<A: Arith, N: Nearest<A>> Nearest<A> for PrimaryHitGiven<'_, A, N> {
+impl<A: Arith, N: NearestSearch<A>> NearestSearch<A> for PrimaryHitGiven<'_, A, N> {
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         match self.first.take() {

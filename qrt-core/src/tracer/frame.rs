@@ -1,11 +1,13 @@
 //! The frame itself: the paper's `Path Tracing`, stage by stage.
 
+use super::arith::Segment;
+use super::ball_ray::Round;
 use super::bsdf::Vertex;
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
-use super::ray::{Nearest, Ray, Segment, Start};
+use super::ray::{NearestSearch, Ray, Start};
 use super::vector::{self, Vector};
-use super::{Arith, Named, Part, Quantity, Stage};
+use super::{Arith, Named, Quantity, Stage, TracerPart};
 
 /// The colour of each path, per channel, in radiance.
 ///
@@ -13,18 +15,18 @@ use super::{Arith, Named, Part, Quantity, Stage};
 /// coordinates and the pixel from `cx`. `nearest` is the stage's own geometry, or a faster search
 /// in front of it.
 #[inline(always)]
-pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
+pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
     cx: &mut A,
     stage: &Stage<C>,
     nearest: &N,
 ) -> [A::Real; C] {
     let zero = cx.real(0.0);
     let mut colour = [zero; C];
-    if stage.surface_of.is_empty() {
+    if stage.surface_of.is_empty() && stage.sky.is_none() {
         return colour;
     }
-    cx.enter(Part::GenerateRay(0));
-    let mut ray = stage.camera.ray(cx, stage.film_bits);
+    cx.enter(TracerPart::GenerateRay(0));
+    let mut ray = stage.camera.ray(cx, stage.film_bits, stage.lens.as_ref());
     cx.leave();
     let mut alive = cx.truth(true);
     let mut throughput: Option<[A::Real; C]> = None;
@@ -47,7 +49,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
                 lights.is_none_or(LightStage::rays_count)
             }
         };
-        cx.enter(Part::FindIntersection(depth));
+        cx.enter(TracerPart::FindIntersection(depth));
         let hit = if scatter.is_some() || stage.every_hit {
             nearest.nearest(cx, &ray, alive)
         } else {
@@ -68,6 +70,20 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
                 front: hit.front,
             },
         );
+        if let Some(sky) = &stage.sky {
+            let missed = math!(cx, goes && !hit.found);
+            if cx.any(missed) {
+                cx.enter(TracerPart::Sky(depth));
+                let mut seen = sky.radiance(cx, &ray.direction);
+                if let Some(throughput) = throughput {
+                    seen = vector::mul(cx, &throughput, &seen);
+                }
+                let none = [zero; C];
+                let seen = vector::select(cx, missed, &seen, &none);
+                colour = vector::add(cx, &colour, &seen);
+                cx.leave();
+            }
+        }
         cx.named_truth(named(Quantity::Found), alive);
         cx.named(named(Quantity::Distance), &[hit.distance]);
         cx.named_index(named(Quantity::Face), hit.face);
@@ -94,7 +110,11 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             break;
         }
         vertex.normal = cx.rows(&stage.normals, hit.face);
-        cx.enter(Part::Side(depth));
+        cx.enter(TracerPart::Side(depth));
+        let round = stage.round(cx, &ray, hit.distance, hit.face);
+        if let Some(round) = &round {
+            vertex.normal = vector::select(cx, round.is, &round.normal, &vertex.normal);
+        }
         vertex.cos_theta = math!(cx, dot(ray.direction, vertex.normal));
         vertex.front = match hit.front {
             Some(front) => front,
@@ -102,7 +122,7 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         };
         cx.leave();
         if let Some(emits) = emits {
-            cx.enter(Part::Shade(depth));
+            cx.enter(TracerPart::Shade(depth));
             let share = departure.as_ref().map(|(lights, departure)| {
                 lights.emission(cx, departure, hit.face, hit.distance, vertex.cos_theta)
             });
@@ -122,8 +142,8 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
         vertex.alive = alive;
         let mut known = None;
         if let Some(lights) = &scatter.lights {
-            cx.enter(Part::SampleLight(depth + 1));
-            let frame = cx.rows(&stage.frames, hit.face);
+            cx.enter(TracerPart::SampleLight(depth + 1));
+            let frame = frame(cx, stage, hit.face, round.as_ref());
             let leaves = Leaves {
                 origin: start(cx, &ray, hit.distance, &frame),
                 from: cx.entry(&stage.geometry.plane_of, hit.face),
@@ -141,22 +161,22 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
             if let Some(light) = light {
                 colour = vector::add(cx, &colour, &light);
             }
-            if depth + 2 == stage.depths() && !lights.rays_count() {
+            if depth + 2 == stage.depths() && !lights.rays_count() && stage.sky.is_none() {
                 break;
             }
             known = Some((frame, leaves.from));
         }
-        cx.enter(Part::GenerateRay(depth + 1));
+        cx.enter(TracerPart::GenerateRay(depth + 1));
         let frame = match known {
             Some((frame, _)) => frame,
-            None => cx.rows(&stage.frames, hit.face),
+            None => frame(cx, stage, hit.face, round.as_ref()),
         };
         vertex.stand(&frame);
         let origin = if cx.recomputes() {
             // The start is a part of its own, after which the previous ray is no longer needed.
             let origin = start(cx, &ray, hit.distance, &frame);
             cx.leave();
-            cx.enter(Part::GenerateRay(depth + 1));
+            cx.enter(TracerPart::GenerateRay(depth + 1));
             Some(origin)
         } else {
             None
@@ -190,6 +210,21 @@ pub fn trace<A: Arith, N: Nearest<A>, const C: usize>(
     colour
 }
 
+/// The row of [`Stage::frames`] of a hit.
+#[inline(always)]
+fn frame<A: Arith, const C: usize>(
+    cx: &mut A,
+    stage: &Stage<C>,
+    face: A::Index,
+    round: Option<&Round<A>>,
+) -> [A::Real; 9] {
+    let row = cx.rows(&stage.frames, face);
+    match round {
+        Some(round) => round.frame(cx, &row),
+        None => row,
+    }
+}
+
 /// The start of the next ray, on a face with this row of [`Stage::frames`].
 #[inline(always)]
 pub(super) fn start<A: Arith>(
@@ -216,7 +251,7 @@ fn start_along<A: Arith>(
     centre: &Vector<A>,
     axis: usize,
 ) -> A::Real {
-    cx.enter(Part::Component(axis));
+    cx.enter(TracerPart::Component(axis));
     let point = math!(cx, ray.origin[axis] + ray.direction[axis] * distance);
     let fraction = cx.inward();
     let start = math!(cx, point + (centre[axis] - point) * real(fraction));

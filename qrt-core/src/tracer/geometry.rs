@@ -5,10 +5,11 @@
 //! across, or a billion units from the origin, is traced with the same precision as a scene near the
 //! origin.
 
-use super::polygon::{EdgeTest, Frame, Plane, edge_tests, frame, plane_of};
+use super::ball::StageBall;
+use super::polygon::{EdgeTest, FaceFrame, Plane, edge_tests, frame, plane_of};
 use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
-use qrt_scene::valid::Polygon;
+use qrt_scene::valid::{Ball, Polygon};
 use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -78,7 +79,7 @@ fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
 
 /// All polygons of a scene, in stage units.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Geometry {
+pub struct StageGeometry {
     /// Distinct planes by main axis, then by their coefficients and offset: an order that does not
     /// depend on that of the scene's list.
     pub planes: Vec<Plane>,
@@ -89,11 +90,11 @@ pub struct Geometry {
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
-    /// The shading frame of each face label.
-    pub frames: Vec<Frame>,
-    /// The plane of each face label.
+    /// The shading frame of each polygon's label.
+    pub frames: Vec<FaceFrame>,
+    /// The plane of each face label; for a sphere [`StageBall::number`].
     pub plane_of: Vec<u32>,
-    /// The corners of each face label, 3 or 4.
+    /// The corners of each polygon's label, 3 or 4.
     pub corners: Vec<Vec<DVec3>>,
     /// The point of the scene that is the stage's origin.
     pub centre: DVec3,
@@ -102,15 +103,24 @@ pub struct Geometry {
     /// The outward tolerance of edges in stage units: [`TOLERANCE`], or more if rays start far away and
     /// arrive less precisely.
     pub tolerance: f64,
-    /// Number of faces that emit.
+    /// Number of faces that emit, spheres included.
     pub emitters: u32,
+    /// The spheres, in the order of the scene.
+    pub balls: Vec<StageBall>,
 }
 
-impl Geometry {
-    /// Prepares `polygons` for intersection. `emits` is true for those that emit. `reach` are further
+impl StageGeometry {
+    /// Prepares faces for intersection. `emits` is true for surfaces that emit. `reach` are further
     /// points from which rays start (the eye).
-    pub fn new(polygons: &[Polygon], emits: impl Fn(&Polygon) -> bool, reach: &[DVec3]) -> Self {
-        let (centre, scale) = stage_units(polygons.iter().flat_map(|polygon| &polygon.vertices));
+    pub fn new(
+        polygons: &[Polygon],
+        balls: &[Ball],
+        emits: impl Fn(u32) -> bool,
+        reach: &[DVec3],
+    ) -> Self {
+        let corners = polygons.iter().flat_map(|polygon| polygon.vertices);
+        let around = balls.iter().flat_map(Ball::corners);
+        let (centre, scale) = stage_units(corners.chain(around));
         let staged = |p: DVec3| (p - centre) * scale;
         let far = reach
             .iter()
@@ -129,6 +139,7 @@ impl Geometry {
             scale,
             tolerance,
             emitters: 0,
+            balls: Vec::with_capacity(balls.len()),
         };
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
         let mut known = HashMap::new();
@@ -146,20 +157,42 @@ impl Geometry {
             geometry.corners.push(corners);
             on_plane[plane as usize].push(Face {
                 label: label as u32,
-                emits: emits(polygon),
+                emits: emits(polygon.surface),
                 hides_emitter: false,
                 covers: None,
                 edge_tests,
             });
         }
+        geometry.place_balls(balls, emits, on_plane.len());
         geometry.arrange(on_plane);
         geometry
     }
 
+    /// Appends the spheres, after polygons on this number of `planes`.
+    fn place_balls(&mut self, balls: &[Ball], emits: impl Fn(u32) -> bool, planes: usize) {
+        let polygons = self.corners.len();
+        for (place, ball) in balls.iter().enumerate() {
+            let number = (planes + place) as u32;
+            self.plane_of.push(number);
+            self.balls.push(StageBall {
+                centre: (ball.centre - self.centre) * self.scale,
+                radius: ball.radius * self.scale,
+                label: (polygons + place) as u32,
+                number,
+                emitter: emits(ball.surface).then_some(0),
+            });
+        }
+    }
+
     /// The greatest distance of a point of the geometry from the origin, in stage units.
     pub fn radius(&self) -> f64 {
-        let points = self.corners.iter().flatten();
-        points.map(|point| point.length()).fold(0.0, f64::max)
+        self.points().map(DVec3::length).fold(0.0, f64::max)
+    }
+
+    /// The corners of all polygons, and of the boxes around the spheres.
+    pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let corners = self.corners.iter().flatten().copied();
+        corners.chain(self.balls.iter().flat_map(StageBall::corners))
     }
 
     /// Points of the scene, in stage units.
@@ -279,8 +312,17 @@ impl Geometry {
             });
         }
         self.planes = planes;
-        for plane in &mut self.plane_of {
+        // Numbers of spheres follow those of all planes, in any order of these.
+        for plane in &mut self.plane_of[..self.corners.len()] {
             *plane = place[*plane as usize];
+        }
+        for emitter in self
+            .balls
+            .iter_mut()
+            .filter_map(|ball| ball.emitter.as_mut())
+        {
+            *emitter = self.emitters;
+            self.emitters += 1;
         }
         let first = |axis: usize| self.planes.partition_point(|plane| plane.axis < axis);
         self.by_axis = [0, 1, 2].map(|axis| first(axis)..first(axis + 1));
@@ -294,7 +336,7 @@ impl Geometry {
 
     /// Finds the planes that have the whole scene on one side.
     fn find_outermost(&mut self) {
-        let corners: Vec<[f64; 3]> = self.corners.iter().flatten().map(DVec3::to_array).collect();
+        let corners: Vec<[f64; 3]> = self.points().map(|point| point.to_array()).collect();
         if self.planes.len() * corners.len() > MOST_COMPARED {
             return;
         }

@@ -4,11 +4,12 @@
 //! that it leaves and cannot meet that plane again: two distinct points of a line on a plane put
 //! the whole line there. So no epsilon is needed to leave a surface.
 
+use super::ball_ray::{BallRay, hides};
 use super::crossing::{AxisPermuted, Crossing, cross, weighted};
-use super::geometry::{Face, Geometry, NO_FACE};
+use super::geometry::{Face, NO_FACE, StageGeometry};
 use super::polygon::EdgeTest;
-use super::ray::{Hit, Nearest, Ray};
-use super::{Arith, Part};
+use super::ray::{Hit, NearestSearch, Ray};
+use super::{Arith, TracerPart};
 
 #[inline(always)]
 pub(super) fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] {
@@ -80,7 +81,7 @@ pub(crate) fn meets<A: Arith, E: Edges<A> + ?Sized>(
     cx.and(crossing.ahead, inside)
 }
 
-impl Geometry {
+impl StageGeometry {
     /// The crossing of `ray` and plane `number`, unless the ray leaves that plane.
     #[inline(always)]
     pub(super) fn cross<A: Arith>(
@@ -138,7 +139,7 @@ impl Geometry {
         if passed && faces.clone().all(|face| face.covers.is_none()) {
             return hidden;
         }
-        cx.enter(Part::Plane(number));
+        cx.enter(TracerPart::Plane(number));
         let crossing = self.cross(cx, number, ray, from);
         let ends_here = if here.is_empty() {
             cx.truth(false)
@@ -163,7 +164,7 @@ impl Geometry {
 
     /// True where `hidden` is, or where one of these faces of plane `number` stands before an emitter at
     /// the distance `emitter`. Faces in the emitter's own plane do not: those that are listed before it,
-    /// and hide it, are met in its place ([`Geometry::nearest_emitter`]).
+    /// and hide it, are met in its place ([`StageGeometry::nearest_emitter`]).
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // The ray is permuted once for many planes.
     pub(super) fn hidden_by<'f, A: Arith>(
@@ -176,7 +177,7 @@ impl Geometry {
         emitter: A::Real,
         mut hidden: A::Bool,
     ) -> A::Bool {
-        cx.enter(Part::Plane(number));
+        cx.enter(TracerPart::Plane(number));
         let crossing = self.cross(cx, number, ray, from);
         for face in faces.filter(|face| !face.emits) {
             let meets = meets(cx, &crossing, &*face.edge_tests);
@@ -207,13 +208,13 @@ impl<A: Arith> Running<A> {
     fn meet_all<'f>(
         &mut self,
         cx: &mut A,
-        geometry: &Geometry,
+        geometry: &StageGeometry,
         number: usize,
         faces: impl Iterator<Item = &'f Face>,
         ray: &AxisPermuted<A>,
         from: A::Index,
     ) {
-        cx.enter(Part::Plane(number));
+        cx.enter(TracerPart::Plane(number));
         let crossing = geometry.cross(cx, number, ray, from);
         for face in faces {
             self.meet(cx, face, &crossing);
@@ -232,7 +233,7 @@ impl<A: Arith> Running<A> {
     }
 }
 
-impl Geometry {
+impl StageGeometry {
     /// The nearest emitter on the ray, even if faces of other planes hide it.
     ///
     /// Of the faces of one plane, the first in the list is met. Faces before an emitter
@@ -255,7 +256,66 @@ impl Geometry {
     }
 }
 
-impl<A: Arith> Nearest<A> for Geometry {
+impl StageGeometry {
+    /// The nearest of `hit` and the spheres.
+    #[inline(always)]
+    pub fn nearer_ball<A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        wanted: A::Bool,
+        hit: Hit<A>,
+    ) -> Hit<A> {
+        if self.balls.is_empty() {
+            return hit;
+        }
+        let balls = BallRay::new(cx, ray);
+        let none = cx.t_max(ray.t_max);
+        let mut nearest = cx.select(hit.found, hit.distance, none);
+        let (mut face, mut found) = (hit.face, hit.found);
+        for ball in &self.balls {
+            cx.enter(TracerPart::Ball(ball.label as usize));
+            let (meets, distance) = balls.nearest(cx, ball);
+            let nearer = math!(cx, meets && distance < nearest);
+            let label = cx.index(ball.label);
+            nearest = cx.select(nearer, distance, nearest);
+            face = cx.select_index(nearer, label, face);
+            found = math!(cx, found || nearer && wanted);
+            cx.leave();
+        }
+        Hit {
+            found,
+            distance: nearest,
+            face,
+            front: None,
+        }
+    }
+
+    /// True where `hidden` is, or where a sphere stands between the start of `ray` and its end on lamp
+    /// number `lamp`, one length of its direction away.
+    #[inline(always)]
+    pub fn hidden_by_balls<A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        lamp: A::Index,
+        mut hidden: A::Bool,
+    ) -> A::Bool {
+        if self.balls.is_empty() {
+            return hidden;
+        }
+        let balls = BallRay::new(cx, ray);
+        for ball in &self.balls {
+            cx.enter(TracerPart::Ball(ball.label as usize));
+            let crosses = balls.crosses(cx, ball);
+            hidden = hides(cx, ball, lamp, crosses, hidden);
+            cx.leave();
+        }
+        hidden
+    }
+}
+
+impl<A: Arith> NearestSearch<A> for StageGeometry {
     /// Tests all planes in turn.
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
@@ -267,13 +327,17 @@ impl<A: Arith> Nearest<A> for Geometry {
                 nearest.meet_all(cx, self, number, faces, &permuted, ray.from);
             }
         }
-        Hit::new(cx, nearest.distance, nearest.face, wanted)
+        let hit = Hit::new(cx, nearest.distance, nearest.face, wanted);
+        self.nearer_ball(cx, ray, wanted, hit)
     }
 
     /// Finds the nearest emitter, and then tests if anything hides it: no other face needs to be
     /// distinguished from its neighbours.
     #[inline(always)]
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        if !self.balls.is_empty() {
+            return self.nearest(cx, ray, wanted);
+        }
         let mut hit = self.nearest_emitter(cx, ray, wanted);
         if !cx.any(hit.found) {
             return hit;
@@ -301,6 +365,6 @@ impl<A: Arith> Nearest<A> for Geometry {
                 hidden = self.occluded_by(cx, number, faces, &permuted, ray.from, lamp, hidden);
             }
         }
-        hidden
+        self.hidden_by_balls(cx, ray, lamp, hidden)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::bsdf::{Lit, ScatterStage, Vertex};
 use super::lights::{LightStage, Towards};
-use super::ray::{Nearest, Ray, Start};
+use super::ray::{NearestSearch, Ray, Start};
 use super::vector::{self, Vector};
-use super::{Arith, Part, Work};
+use super::{Arith, TracerPart, Work};
 
 /// The light of a point on a lamp that the paths at a vertex reflect towards the camera, per channel;
 /// none if none do.
@@ -18,7 +18,7 @@ pub(super) struct Lighting<'a, A: Arith, N, const C: usize> {
     pub(super) throughput: Option<[A::Real; C]>,
 }
 
-impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> {
+impl<A: Arith, N: NearestSearch<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> {
     type Output = Option<[A::Real; C]>;
 
     #[inline(always)]
@@ -31,13 +31,17 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
             leaves,
             throughput,
         } = self;
-        cx.enter(Part::SampleLight(lights.depth));
+        cx.enter(TracerPart::SampleLight(lights.depth));
         let origin = &leaves.origin;
         let point = lights.point(cx, origin);
         let [mx, my, mz, height] = cx.rows(&lights.normals, point.lamp);
         let rise = math!(cx, dot(at.normal, point.to));
         let rise = math!(cx, max(select(at.front, rise, -rise), 0.0));
-        let fall = math!(cx, max(dot([mx, my, mz], *origin) - height, 0.0));
+        let mut fall = math!(cx, dot([mx, my, mz], *origin) - height);
+        if let Some((is, normal)) = point.normal {
+            fall = math!(cx, select(is, -dot(normal, point.to), fall));
+        }
+        let fall = math!(cx, max(fall, 0.0));
         let lit = cx.entry(&lights.receivers.samples, at.surface);
         let lit = cx.is(lit, 1);
         let both = math!(cx, rise * fall);
@@ -70,7 +74,7 @@ impl<A: Arith, N: Nearest<A>, const C: usize> Work<A> for Lighting<'_, A, N, C> 
         let light = vector::mul(cx, &weight, &radiance);
         let light = vector::scale(cx, &light, factor);
         cx.leave();
-        cx.enter(Part::Shadow(lights.depth));
+        cx.enter(TracerPart::Shadow(lights.depth));
         let ray = Ray {
             origin: *origin,
             direction: point.to,

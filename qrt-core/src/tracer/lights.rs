@@ -22,16 +22,17 @@
 //!
 //! (Veach & Guibas 1995; Shirley, Wang & Zimmerman 1996.)
 
-use super::geometry::Geometry;
+use super::ball::StageBall;
+use super::geometry::StageGeometry;
 use super::places::Places;
 use super::radiance::in_units;
-use super::vector::Vector;
+use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Sampled};
 use qrt_scene::Lights;
-use qrt_scene::lights::{self, Lamp, Reached};
+use qrt_scene::lights::{self, Lamp, LitFace, Reached};
 use qrt_scene::valid::Surface;
 use qrt_scene::valid::lights::MOST_PAIRS;
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 /// The distance in stage units below which `r^4` has too few bits. If a lamp can be nearer, cosines
 /// and distance are divided one after the other.
@@ -40,7 +41,7 @@ const NEAR: f64 = 0.3;
 /// The lamps of a scene and the light that they send to surfaces, for all depths.
 #[derive(Clone, Debug)]
 pub(super) struct Lamps {
-    shapes: Vec<Lamp>,
+    shapes: Vec<Shape>,
     /// By lamp: its face.
     faces: Vec<u32>,
     /// By lamp: its power.
@@ -56,33 +57,50 @@ impl Lamps {
     /// None if nothing emits, or if an emitter's shape cannot be sampled; a scene that samples lamps
     /// has no emitter of that kind.
     pub(super) fn new(
-        geometry: &Geometry,
+        geometry: &StageGeometry,
         surfaces: &[&Surface],
         surface_of: &[u32],
         places: &Places,
     ) -> Option<Self> {
         let (mut shapes, mut faces, mut powers) = (vec![], vec![], vec![]);
         // Numbered as the geometry numbers its emitting faces.
-        for face in geometry.faces.iter().filter(|face| face.emits) {
-            let label = face.label as usize;
-            let lamp = Lamp::new(&geometry.corners[label])?;
-            let radiance = surfaces[surface_of[label] as usize].radiance;
-            shapes.push(lamp);
-            faces.push(face.label);
-            powers.push(lamp.area * radiance.iter().sum::<f64>());
+        let polygons = geometry.faces.iter().filter(|face| face.emits);
+        let polygons = polygons.map(|face| {
+            let lamp = Lamp::new(&geometry.corners[face.label as usize])?;
+            Some((face.label, Shape::Flat(lamp)))
+        });
+        let balls = geometry.balls.iter().filter(|ball| ball.emitter.is_some());
+        let balls = balls.map(|ball| Some((ball.label, Shape::Round(*ball))));
+        for lamp in polygons.chain(balls) {
+            let (label, shape) = lamp?;
+            let radiance = surfaces[surface_of[label as usize] as usize].radiance;
+            powers.push(shape.area() * radiance.iter().sum::<f64>());
+            shapes.push(shape);
+            faces.push(label);
         }
         if shapes.is_empty() {
             return None;
         }
-        let few = geometry.faces.len() * shapes.len() <= MOST_PAIRS;
-        let labels = || geometry.faces.iter().map(|face| face.label as usize);
+        let few = (geometry.faces.len() + geometry.balls.len()) * shapes.len() <= MOST_PAIRS;
+        let labels = || {
+            let polygons = geometry.faces.iter().map(|face| face.label);
+            polygons.chain(geometry.balls.iter().map(|ball| ball.label))
+        };
+        let face_of = |label: u32| {
+            if let Some(outline) = geometry.corners.get(label as usize) {
+                return LitFace::Polygon(outline);
+            }
+            let ball = &geometry.balls[label as usize - geometry.corners.len()];
+            LitFace::Sphere {
+                centre: ball.centre,
+                radius: ball.radius,
+            }
+        };
         let reached = |surface: usize| {
             let all = |lamp: &u32| {
-                let mine = labels().filter(|&label| surface_of[label] as usize == surface);
-                let outlines = mine.map(|label| &*geometry.corners[label]);
-                let lamp = &geometry.corners[*lamp as usize];
+                let mine = labels().filter(|&label| surface_of[label as usize] as usize == surface);
                 if few {
-                    lights::strongest(outlines, lamp)
+                    lights::strongest_of(mine.map(face_of), face_of(*lamp))
                 } else {
                     Reached::UNBOUNDED
                 }
@@ -105,6 +123,16 @@ impl Lamps {
     }
 }
 
+/// The parameters of the sampling of lamps for the rays of one depth.
+pub(super) struct LightSampling {
+    /// The depth of the rays.
+    pub(super) depth: usize,
+    /// Sample bits of each coordinate.
+    pub(super) bits: [u32; 2],
+    /// The scene's `sampling.lights`.
+    pub(super) mode: Lights,
+}
+
 /// The sampling of lamps at the vertices that the rays of one depth leave.
 #[derive(Clone, Debug)]
 pub(crate) struct LightStage<const C: usize> {
@@ -113,10 +141,12 @@ pub(crate) struct LightStage<const C: usize> {
     /// By column of the first coordinate: the lamp, and the place along its first edge.
     lamp_of: Vec<u32>,
     along: Sampled,
-    /// By lamp: corner and edges.
+    /// By lamp: corner and edges; centre and radius of a sphere.
     places: Vec<[f64; 9]>,
     /// By lamp: 1 if it is a triangle, else 0.
     triangles: Vec<u32>,
+    /// The points of lamps that are spheres, if there are any.
+    spheres: Option<SphereLamps>,
     /// By lamp: its normal, and the distance of its plane from the origin along the normal.
     pub(super) normals: Vec<[f64; 4]>,
     /// By lamp: area over probability and pi.
@@ -210,7 +240,7 @@ impl<const C: usize> LightStage<C> {
         radiance: &[[f64; C]],
         surface_of: &[u32],
         receivers: &[Receiver],
-        (depth, bits, mode): (usize, [u32; 2], Lights),
+        LightSampling { depth, bits, mode }: LightSampling,
     ) -> Option<Self> {
         let columns = lights::columns(&lamps.powers, bits[0])?;
         let all = f64::from(1_u32 << bits[0]);
@@ -220,7 +250,7 @@ impl<const C: usize> LightStage<C> {
         }
         let lit = lamps.shapes.iter().zip(&columns);
         let areas: Vec<f64> = lit
-            .map(|(lamp, &columns)| lamp.area * all / f64::from(columns) * FRAC_1_PI)
+            .map(|(lamp, &columns)| lamp.area() * all / f64::from(columns) * FRAC_1_PI)
             .collect();
         // The factor of next-event estimation. That of `mis` never exceeds it.
         let next_event = |surface: usize| -> Vec<f64> {
@@ -276,6 +306,10 @@ impl<const C: usize> LightStage<C> {
             starts.push(lamp_of.len() as u32);
             lamp_of.extend(std::iter::repeat_n(lamp, columns as usize));
         }
+        let has_spheres = lamps
+            .shapes
+            .iter()
+            .any(|shape| matches!(shape, Shape::Round(_)));
         let place = {
             let (lamp_of, columns) = (lamp_of.clone(), columns.clone());
             move |column: u32| {
@@ -294,9 +328,10 @@ impl<const C: usize> LightStage<C> {
             depth,
             bits,
             lamp_of,
+            spheres: has_spheres.then(|| SphereLamps::new(&lamps.shapes, bits, place.clone())),
             along: Sampled::of_index(bits[0], place),
             places: lamps.shapes.iter().map(place_row).collect(),
-            triangles: lamps.shapes.iter().map(|l| u32::from(l.triangle)).collect(),
+            triangles: lamps.shapes.iter().map(is_triangle).collect(),
             normals: lamps.shapes.iter().map(normal_row).collect(),
             areas: areas.iter().map(|&area| [area]).collect(),
             radiance: surface_of_lamp
@@ -382,10 +417,19 @@ impl<const C: usize> LightStage<C> {
             second = math!(cx, select(beyond, 1.0 - second, second));
         }
         let [x, y, z, ax, ay, az, bx, by, bz] = cx.rows(&self.places, lamp);
-        let point = vector!(cx, [x, y, z] + [ax, ay, az] * first + [bx, by, bz] * second);
+        let mut point = vector!(cx, [x, y, z] + [ax, ay, az] * first + [bx, by, bz] * second);
+        let mut normal = None;
+        if let Some(spheres) = &self.spheres {
+            let round = spheres.point(cx, [u, v], lamp);
+            let [radius] = cx.rows(&spheres.radii, lamp);
+            let own = vector!(cx, [x, y, z] + round.1 * radius);
+            point = vector::select(cx, round.0, &own, &point);
+            normal = Some(round);
+        }
         Point {
             lamp,
             to: vector!(cx, point - *origin),
+            normal,
         }
     }
 
@@ -491,6 +535,8 @@ pub(super) struct Point<A: Arith> {
     pub(super) lamp: A::Index,
     /// From the vertex to the point; not of unit length.
     pub(super) to: Vector<A>,
+    /// True if the lamp is a sphere, and then its normal; none if no lamp is.
+    pub(super) normal: Option<(A::Bool, Vector<A>)>,
 }
 
 /// The way from a vertex to a point on a lamp.
@@ -516,13 +562,112 @@ pub(super) struct Departure<A: Arith> {
     density: A::Real,
 }
 
-fn place_row(lamp: &Lamp) -> [f64; 9] {
+/// The shape of a lamp.
+#[derive(Clone, Debug)]
+enum Shape {
+    Flat(Lamp),
+    Round(StageBall),
+}
+
+impl Shape {
+    fn area(&self) -> f64 {
+        match self {
+            Self::Flat(lamp) => lamp.area,
+            Self::Round(ball) => 4.0 * PI * ball.radius * ball.radius,
+        }
+    }
+}
+
+fn is_triangle(shape: &Shape) -> u32 {
+    match shape {
+        Shape::Flat(lamp) => u32::from(lamp.triangle),
+        Shape::Round(_) => 0,
+    }
+}
+
+/// The sampling of points on lamps that are spheres, uniform by area. The height on a sphere and the
+/// azimuth are uniform (Archimedes).
+#[derive(Clone, Debug)]
+struct SphereLamps {
+    /// By lamp: 1 if it is a sphere, else 0.
+    is: Vec<u32>,
+    /// By lamp: its radius; 0 for a polygon.
+    radii: Vec<[f64; 1]>,
+    /// Height and distance from the axis, of a unit normal.
+    height: Sampled,
+    across: Sampled,
+    /// Cosine and sine of the azimuth.
+    azimuth: [Sampled; 2],
+}
+
+impl SphereLamps {
+    /// `place` is that of each column along its lamp.
+    fn new(
+        shapes: &[Shape],
+        bits: [u32; 2],
+        place: impl Fn(u32) -> f64 + Clone + Send + Sync + 'static,
+    ) -> Self {
+        let radius = |shape: &Shape| match shape {
+            Shape::Flat(_) => 0.0,
+            Shape::Round(ball) => ball.radius,
+        };
+        let heights = place.clone();
+        Self {
+            is: shapes.iter().map(|s| u32::from(radius(s) > 0.0)).collect(),
+            radii: shapes.iter().map(|shape| [radius(shape)]).collect(),
+            height: Sampled::of_index(bits[0], move |column| 1.0 - 2.0 * heights(column)),
+            across: Sampled::of_index(bits[0], move |column| {
+                let place = place(column);
+                2.0 * (place * (1.0 - place)).sqrt()
+            }),
+            azimuth: [
+                Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
+                Sampled::of_centre(bits[1], |v| libm::sin(TAU * v)),
+            ],
+        }
+    }
+
+    /// Returns whether the lamp is a sphere, and its normal at the sampled point.
+    #[inline(always)]
+    fn point<A: Arith>(
+        &self,
+        cx: &mut A,
+        [u, v]: [A::Index; 2],
+        lamp: A::Index,
+    ) -> (A::Bool, Vector<A>) {
+        let is = cx.entry(&self.is, lamp);
+        let is = cx.is(is, 1);
+        let height = cx.sampled(&self.height, u);
+        let across = cx.sampled(&self.across, u);
+        let [cos, sin] = [
+            cx.sampled(&self.azimuth[0], v),
+            cx.sampled(&self.azimuth[1], v),
+        ];
+        (
+            is,
+            [math!(cx, across * cos), math!(cx, across * sin), height],
+        )
+    }
+}
+
+fn place_row(shape: &Shape) -> [f64; 9] {
+    let lamp = match shape {
+        Shape::Flat(lamp) => lamp,
+        Shape::Round(ball) => {
+            let [x, y, z] = ball.centre.to_array();
+            return [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        }
+    };
     let [a, b] = lamp.edges.map(|edge| edge.to_array());
     let c = lamp.corner.to_array();
     [c[0], c[1], c[2], a[0], a[1], a[2], b[0], b[1], b[2]]
 }
 
-fn normal_row(lamp: &Lamp) -> [f64; 4] {
+fn normal_row(shape: &Shape) -> [f64; 4] {
+    let lamp = match shape {
+        Shape::Flat(lamp) => lamp,
+        Shape::Round(_) => return [0.0; 4],
+    };
     // A component of an axis-aligned normal that is only a rounding error becomes 0.
     let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
     let n = lamp.normal.to_array().map(clean);

@@ -22,6 +22,8 @@
 mod math;
 
 mod arith;
+mod ball;
+mod ball_ray;
 mod bound;
 mod bsdf;
 mod camera;
@@ -45,19 +47,23 @@ mod sampled;
 #[cfg(test)]
 mod scalar;
 mod search;
+mod sky;
 mod stage;
 pub(crate) mod vector;
 
-pub use arith::{Arith, Axis, Coordinate, Named, Part, Quantity, Work};
+pub use arith::{Arith, Axis, Coordinate, Named, Quantity, Segment, TracerPart, Work};
+pub use ball::StageBall;
+pub use ball_ray::BallRay;
 pub use camera::CameraStage;
 pub use crossing::{AxisPermuted, Crossing, between, cross, weighted};
-pub use face_table::{FaceTable, PrimaryHitGiven};
+pub use face_table::FaceTable;
+pub(crate) use face_table::PrimaryHitGiven;
 pub use frame::trace;
-pub use geometry::{Face, Geometry, INWARD, NO_FACE, NO_PLANE, TOLERANCE};
-pub use paper::Records;
-pub use pixel_class::{PixelClass, PixelClasses};
-pub use polygon::{EdgeTest, Frame, Plane};
-pub use ray::{Hit, Nearest, Ray, Segment, Start};
+pub use geometry::{Face, INWARD, NO_FACE, NO_PLANE, StageGeometry, TOLERANCE};
+pub(crate) use paper::Records;
+pub use pixel_class::{ByClass, PixelClass, PixelClasses};
+pub use polygon::{EdgeTest, FaceFrame, Plane};
+pub use ray::{Hit, NearestSearch, Ray, Start};
 pub use sampled::Sampled;
 pub(crate) use search::Search;
 pub use stage::{Stage, WideValue};

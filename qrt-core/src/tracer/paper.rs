@@ -2,20 +2,33 @@
 //! primitive, and after each one a full record of the nearest so far.
 
 use super::geometry::NO_FACE;
-use super::ray::{Hit, Nearest, Ray, point_at};
-use super::{Arith, Part, Stage};
+use super::ray::{Hit, NearestSearch, Ray, point_at};
+use super::search::Search;
+use super::{Arith, Stage, TracerPart};
 
 /// Finds hits with records of every primitive, in place of the geometry. For comparison: the hits
 /// are the same.
-pub struct Records<'a, const C: usize>(pub &'a Stage<C>);
+pub(crate) struct Records<'a, const C: usize> {
+    stage: &'a Stage<C>,
+    /// The search of spheres, which has no records.
+    search: Search<'a>,
+}
+
+impl<'a, const C: usize> Records<'a, C> {
+    /// Creates the search of a stage, for numbers with this `ulp`.
+    pub(crate) fn new(stage: &'a Stage<C>, ulp: f64) -> Self {
+        let search = Search::new(stage, ulp);
+        Self { stage, search }
+    }
+}
 
 /// Distance, point, normal, surface.
 type Record<A> = [<A as Arith>::Real; 8];
 
-impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
+impl<A: Arith, const C: usize> NearestSearch<A> for Records<'_, C> {
     #[inline(always)]
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
-        let stage = self.0;
+        let stage = self.stage;
         let zero = cx.real(0.0);
         let mut nearest: Record<A> = [zero; 8];
         nearest[0] = cx.t_max(ray.t_max);
@@ -23,7 +36,7 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
         // In the order of the running nearest: of faces equally far, the first is kept.
         for number in 0..stage.geometry.faces.len() {
             let label = stage.geometry.faces[number].label;
-            cx.enter(Part::Primitive(label as usize));
+            cx.enter(TracerPart::Primitive(label as usize));
             let (meets, distance) = stage.geometry.meet(cx, number, ray);
             let point = point_at(cx, ray, distance);
             let normal = stage.normals[label as usize];
@@ -47,7 +60,8 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
             face = cx.select_index(hit, label, face);
             cx.leave();
         }
-        Hit::new(cx, nearest[0], face, wanted)
+        let hit = Hit::new(cx, nearest[0], face, wanted);
+        self.search.nearer_ball(cx, ray, wanted, hit)
     }
 
     #[inline(always)]
@@ -57,6 +71,10 @@ impl<A: Arith, const C: usize> Nearest<A> for Records<'_, C> {
 
     #[inline(always)]
     fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool {
-        self.0.geometry.occluded(cx, ray, lamp, wanted)
+        if self.stage.geometry.balls.is_empty() {
+            self.stage.geometry.occluded(cx, ray, lamp, wanted)
+        } else {
+            self.search.occluded(cx, ray, lamp, wanted)
+        }
     }
 }

@@ -46,16 +46,20 @@ impl PixelClasses {
         let written = scene.scene();
         let sampling = &written.sampling;
         let lit = (0..sampling.depths.len()).any(|depth| sampling.light(depth).is_some());
-        if !lit {
+        // Rays of a lens go beside the pixel.
+        if !lit || written.lens().is_some() {
             return Self::one();
         }
         let view = camera::View::new(&written.camera, written.film);
         let emits = |surface: u32| scene.surfaces()[surface as usize].emits();
         let lamps = scene.polygons().iter().filter(|p| emits(p.surface));
+        let seen = lamps.map(|lamp| view.outline(lamp.outline()));
+        let balls = scene.balls().iter().filter(|ball| emits(ball.surface));
+        let seen = seen.chain(balls.map(|ball| view.box_outline(ball.corners())));
         let film = [written.film.width, written.film.height];
         let mut outlines = Vec::new();
-        for lamp in lamps {
-            match view.outline(lamp.outline()) {
+        for seen in seen {
+            match seen {
                 camera::Seen::Not => {}
                 camera::Seen::Within(outline) => {
                     // A lamp beside the film makes no difference to a pixel's class.
@@ -110,31 +114,6 @@ impl PixelClasses {
         }
     }
 
-    /// Calls `run` for the pixels of each class, and returns the results in the order of `pixels`.
-    ///
-    /// # Errors
-    /// The first error of `run`.
-    pub fn apart<T, E>(
-        &self,
-        pixels: &[[u32; 2]],
-        mut run: impl FnMut(PixelClass, &[[u32; 2]]) -> Result<Vec<T>, E>,
-    ) -> Result<Vec<T>, E> {
-        let mut all: Vec<Option<T>> = pixels.iter().map(|_| None).collect();
-        for &class in self.present() {
-            let places = (0..pixels.len()).filter(|&place| self.class(pixels[place]) == class);
-            let places: Vec<usize> = places.collect();
-            let mine: Vec<[u32; 2]> = places.iter().map(|&place| pixels[place]).collect();
-            if mine.is_empty() {
-                continue;
-            }
-            for (place, found) in places.into_iter().zip(run(class, &mine)?) {
-                all[place] = Some(found);
-            }
-        }
-        // Every pixel is of one class.
-        Ok(all.into_iter().flatten().collect())
-    }
-
     /// The classes that pixels of the film have; both if that is not known: see [`PixelClasses::new`].
     pub fn present(&self) -> &'static [PixelClass] {
         match &self.outlines {
@@ -142,6 +121,104 @@ impl PixelClasses {
             Some(outlines) if outlines.is_empty() => &PixelClass::ALL[1..],
             Some(_) => &PixelClass::ALL,
         }
+    }
+}
+
+/// A value for each class of a film's pixels, such as the machine that traces them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ByClass<T> {
+    classes: PixelClasses,
+    /// An entry for each class of the film's pixels.
+    values: Vec<(PixelClass, T)>,
+}
+
+impl<T> ByClass<T> {
+    /// Calls `make` for each class that pixels of the film have.
+    ///
+    /// # Errors
+    /// The first error of `make`.
+    pub fn try_new<E>(
+        classes: &PixelClasses,
+        mut make: impl FnMut(PixelClass) -> Result<T, E>,
+    ) -> Result<Self, E> {
+        let present = classes.present().iter();
+        let values = present.map(|&class| Ok((class, make(class)?)));
+        Ok(Self {
+            classes: classes.clone(),
+            values: values.collect::<Result<_, E>>()?,
+        })
+    }
+
+    /// The value that all pixels have.
+    pub fn one(value: T) -> Self {
+        Self {
+            classes: PixelClasses::one(),
+            values: vec![(PixelClass::default(), value)],
+        }
+    }
+
+    /// The value of pixel (column, row).
+    pub fn at(&self, pixel: [u32; 2]) -> &T {
+        let class = self.classes.class(pixel);
+        let mut values = self.values.iter();
+        let found = values.find(|(of, _)| *of == class);
+        // There is an entry for each class of the film's pixels.
+        &found.unwrap_or(&self.values[0]).1
+    }
+
+    /// The values of all classes.
+    pub fn values(&self) -> impl Iterator<Item = &T> {
+        self.values.iter().map(|(_, value)| value)
+    }
+
+    /// The classes of the pixels, and the value of each class.
+    pub fn parts(&self) -> (&PixelClasses, &[(PixelClass, T)]) {
+        (&self.classes, &self.values)
+    }
+
+    /// Replaces each value by the result of `change`.
+    ///
+    /// # Errors
+    /// The first error of `change`.
+    pub fn try_map<U, E>(self, mut change: impl FnMut(T) -> Result<U, E>) -> Result<ByClass<U>, E> {
+        let values = self.values.into_iter();
+        let values = values.map(|(class, value)| Ok((class, change(value)?)));
+        Ok(ByClass {
+            values: values.collect::<Result<_, E>>()?,
+            classes: self.classes,
+        })
+    }
+
+    /// For each value, the places in `pixels` of the pixels that have it.
+    pub fn places(&self, pixels: &[[u32; 2]]) -> impl Iterator<Item = (&T, Vec<usize>)> {
+        self.values.iter().map(move |(class, value)| {
+            let mine = |place: &usize| self.classes.class(pixels[*place]) == *class;
+            (value, (0..pixels.len()).filter(mine).collect())
+        })
+    }
+
+    /// Calls `run` with each value and its pixels, unless there are none, and returns the results in
+    /// the order of `pixels`.
+    ///
+    /// # Errors
+    /// The first error of `run`.
+    pub fn apart<R, E>(
+        &self,
+        pixels: &[[u32; 2]],
+        mut run: impl FnMut(&T, &[[u32; 2]]) -> Result<Vec<R>, E>,
+    ) -> Result<Vec<R>, E> {
+        let mut all: Vec<Option<R>> = pixels.iter().map(|_| None).collect();
+        for (value, places) in self.places(pixels) {
+            let mine: Vec<[u32; 2]> = places.iter().map(|&place| pixels[place]).collect();
+            if mine.is_empty() {
+                continue;
+            }
+            for (place, found) in places.into_iter().zip(run(value, &mine)?) {
+                all[place] = Some(found);
+            }
+        }
+        // Every pixel is of one class.
+        Ok(all.into_iter().flatten().collect())
     }
 }
 

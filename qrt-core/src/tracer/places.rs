@@ -3,13 +3,13 @@
 //!
 //! A place is a side of a face. A ray that leaves it stays on that side of the face's plane. It
 //! meets no face that lies in or behind this plane, and no side of a face that looks away from the
-//! place it left: the top of a box is not met from the floor. If there are many faces, or if no lamp
-//! is sampled, a place is a whole surface, and each place may be reached from each.
+//! place it left: the top of a box is not met from the floor. If there are many faces or any
+//! sphere, or if no lamp is sampled, a place is a whole surface, and each place may be reached from each.
 //!
 //! This is true of the faces as they are written. A ray that slips through between two faces, within
 //! the tolerance of their edges, may carry more than the bound: machines then end with an error.
 
-use super::geometry::Geometry;
+use super::geometry::StageGeometry;
 use glam::DVec3;
 use qrt_scene::lights::strongest_form;
 
@@ -50,14 +50,14 @@ impl Places {
     /// `starts`. If there are too many faces, or too many for `lamps` lamps, the places are whole
     /// surfaces.
     pub(crate) fn sides(
-        geometry: &Geometry,
+        geometry: &StageGeometry,
         (surface_of, surfaces): (&[u32], usize),
         transmits: &[bool],
         starts: &[DVec3],
         lamps: usize,
     ) -> Self {
         let faces = geometry.corners.len();
-        if faces > MOST_FACES || faces * lamps > MOST_LIT {
+        if faces > MOST_FACES || faces * lamps > MOST_LIT || !geometry.balls.is_empty() {
             return Self::surfaces(surfaces);
         }
         let outlines = &geometry.corners;
@@ -119,11 +119,15 @@ impl Places {
     /// `by_surface` gives the bound of a surface.
     pub(crate) fn lit_by(
         &self,
-        geometry: &Geometry,
+        geometry: &StageGeometry,
         (lamp, lamps): (u32, usize),
         by_surface: impl Fn(u32) -> f64,
     ) -> Vec<f64> {
-        let lamp = &*geometry.corners[lamp as usize];
+        // Lamps are spheres only where places are whole surfaces.
+        let lamp = geometry
+            .corners
+            .get(lamp as usize)
+            .map_or(&[][..], Vec::as_slice);
         let parts = (MOST_PARTS / (self.len() * lamps)).max(FEWEST_PARTS);
         let of = |place: usize| {
             let known = by_surface(self.surfaces[place]);
@@ -140,12 +144,12 @@ impl Places {
 }
 
 /// True if one of the points is in front of this side of a face.
-fn before(geometry: &Geometry, place: usize, points: &[DVec3]) -> bool {
+fn before(geometry: &StageGeometry, place: usize, points: &[DVec3]) -> bool {
     beyond(geometry, place, points, SLACK)
 }
 
 /// True if one of the points is farther than `least` from the plane, towards this side of the face.
-fn beyond(geometry: &Geometry, place: usize, points: &[DVec3], least: f64) -> bool {
+fn beyond(geometry: &StageGeometry, place: usize, points: &[DVec3], least: f64) -> bool {
     let frame = &geometry.frames[place / 2];
     let side = if place.is_multiple_of(2) { 1.0 } else { -1.0 };
     let rise = |point: &DVec3| side * frame.normal.dot(*point - frame.centre);

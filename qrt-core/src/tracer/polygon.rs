@@ -31,10 +31,10 @@ pub struct Plane {
     pub form: [f64; 2],
     /// The plane's offset along its main axis, in stage units.
     pub offset: f64,
-    /// The range of [`Geometry::faces`](super::Geometry::faces) that lies on the plane.
+    /// The range of [`StageGeometry::faces`](super::StageGeometry::faces) that lies on the plane.
     pub faces: Range<usize>,
     /// The numbers of its emitting faces: they are counted in the order of
-    /// [`Geometry::faces`](super::Geometry::faces).
+    /// [`StageGeometry::faces`](super::StageGeometry::faces).
     pub emitters: Range<u32>,
     /// True if all corners of the scene are on one side of the plane or on it. Nothing on the plane then
     /// stands between two points of the scene.
@@ -68,7 +68,7 @@ impl Plane {
 
 /// A face's frame: tangents, normal (the front) and centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct FaceFrame {
     /// The unit tangent, orthogonal to the normal.
     pub tangent: DVec3,
     /// The unit bitangent, orthogonal to both others.
@@ -79,7 +79,7 @@ pub struct Frame {
     pub centre: DVec3,
 }
 
-pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
+pub(super) fn plane_of(corners: &[DVec3], frame: &FaceFrame) -> Plane {
     let axis = main_axis(frame.normal);
     let scaled = frame.normal / frame.normal[axis];
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -106,7 +106,7 @@ pub(super) fn plane_of(corners: &[DVec3], frame: &Frame) -> Plane {
     }
 }
 
-pub(super) fn frame(corners: &[DVec3]) -> Frame {
+pub(super) fn frame(corners: &[DVec3]) -> FaceFrame {
     let (a, b, c) = (corners[0], corners[1], corners[2]);
     // For a quad the diagonals give the same direction and no corner is preferred.
     let normal = match corners.get(3) {
@@ -126,7 +126,7 @@ pub(super) fn frame(corners: &[DVec3]) -> Frame {
     };
     let tangent = (away - normal * normal.dot(away)).normalize();
     let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
-    Frame {
+    FaceFrame {
         tangent,
         bitangent: normal.cross(tangent),
         normal,

@@ -62,33 +62,8 @@ impl<A: Arith> Hit<A> {
     }
 }
 
-/// A ray of a path and its hit: see [`Arith::traced`].
-pub struct Segment<A: Arith> {
-    /// The point where the ray starts, in stage units.
-    pub origin: Vector<A>,
-    /// The direction of the ray.
-    pub direction: Vector<A>,
-    /// True if the path has not ended before the ray.
-    pub goes: A::Bool,
-    /// True if the path has not ended before the ray, and the ray meets a face.
-    pub found: A::Bool,
-    /// As [`Hit::distance`].
-    pub distance: A::Real,
-    /// As [`Hit::face`].
-    pub face: A::Index,
-    /// As [`Hit::front`].
-    pub front: Option<A::Bool>,
-}
-
-impl<A: Arith> Clone for Segment<A> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<A: Arith> Copy for Segment<A> {}
-
 /// A search for the nearest intersection.
-pub trait Nearest<A: Arith> {
+pub trait NearestSearch<A: Arith> {
     /// The nearest intersection of `ray`, needed only where `wanted` holds.
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 

@@ -11,7 +11,7 @@
 //! ([`qrt_scene::valid`]). If there are slivers, or if another material that transmits lies on glass, no
 //! refraction has a known bound.
 
-use super::geometry::Geometry;
+use super::geometry::StageGeometry;
 use glam::DVec3;
 use qrt_scene::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
 use qrt_scene::valid::{Scatter, Surface};
@@ -43,7 +43,7 @@ impl Refraction {
     /// Bounds for the faces of `geometry`. `surface_of` contains their surfaces, by label. Rays of the
     /// camera leave `starts`, or the area between them.
     pub(super) fn new(
-        geometry: &Geometry,
+        geometry: &StageGeometry,
         surfaces: &[&Surface],
         surface_of: &[u32],
         starts: &[DVec3],
@@ -73,7 +73,14 @@ impl Refraction {
             };
             *known = true;
             let square = ior * ior;
-            pieces.extend(solids.into_iter().map(|solid| {
+            let balls = geometry.balls.iter();
+            let balls = balls.filter(|ball| surface_of[ball.label as usize] as usize == number);
+            let balls = balls.map(|ball| Solid {
+                low: ball.centre - ball.radius,
+                high: ball.centre + ball.radius,
+                outwards: true,
+            });
+            pieces.extend(solids.into_iter().chain(balls).map(|solid| {
                 let inwards = if solid.outwards { 1.0 / square } else { square };
                 Piece {
                     solid,

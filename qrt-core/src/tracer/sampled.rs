@@ -17,7 +17,10 @@ pub struct Sampled {
 
 impl Sampled {
     /// A function of the index, `0..2^bits`.
-    pub fn of_index(bits: u32, function: impl Fn(u32) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn of_index(
+        bits: u32,
+        function: impl Fn(u32) -> f64 + Send + Sync + 'static,
+    ) -> Self {
         Self::stored(bits, TABLE_BITS, function)
     }
 
@@ -37,7 +40,10 @@ impl Sampled {
     }
 
     /// A function of the cell centre `(index + 1/2) / 2^bits`.
-    pub fn of_centre(bits: u32, function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn of_centre(
+        bits: u32,
+        function: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
         Self::of_index(bits, move |index| function(cell_centre(index, bits)))
     }
 

@@ -1,7 +1,8 @@
 //! *Find Intersection* for circuits: of the scene's planes, it tests only those that a ray can meet.
 //!
-//! [`Geometry`] computes where the ray crosses every plane, and tests if the crossing is within the
-//! edges of every polygon on it. Three observations avoid most of that; the hits are the same.
+//! [`StageGeometry`] computes where the ray crosses every plane, and tests if the crossing is
+//! within the edges of every polygon on it. Three observations avoid most of that; the hits are the
+//! same.
 //!
 //! - **Outer planes** have the whole scene and the ray's start on one side. The ray can meet them only
 //!   where it leaves the scene, so the first of them that it crosses is the only one that it can meet.
@@ -11,20 +12,23 @@
 //! - **Convex bodies**: a ray meets a body at the last of the planes that it enters, if it enters this
 //!   plane before it leaves the first of the planes that it leaves. This needs no points and no edges.
 //!   See [`super::convex`].
+//! - **Spheres** are compared by where the ray is nearest to their centres, without a root each. See
+//!   [`balls`].
 //! - **Sides**: the sign of the slope towards a plane gives the side on which a ray meets it.
 //!
 //! The start of a ray decides which planes are outer, and which bodies it may enter. Rays that leave
 //! surfaces and rays of the camera have a [`Plan`] each.
 
+mod balls;
 mod plan;
 
 use super::convex::{self, Edges};
 use super::crossing::{AxisPermuted, rise, slope};
-use super::geometry::{Geometry, NO_FACE};
+use super::geometry::{NO_FACE, StageGeometry};
 use super::intersect::{constants, meets, within};
 use super::polygon::Plane;
-use super::ray::{Hit, Nearest, Ray, Start};
-use super::{Arith, Part, Stage};
+use super::ray::{Hit, NearestSearch, Ray, Start};
+use super::{Arith, Stage, TracerPart};
 use plan::{Facet, Met, MetBound, Outer, Plan, Planner, Starts};
 
 /// The greatest thickness of planes in the search for convex bodies, in stage units. Corners from files
@@ -33,7 +37,7 @@ const THICKNESS: f64 = 1.0 / (1_u64 << 22) as f64;
 
 /// The searches of a scene's rays.
 pub(crate) struct Search<'a> {
-    geometry: &'a Geometry,
+    geometry: &'a StageGeometry,
     /// The rays of the camera.
     camera: Plan,
     /// The rays that leave surfaces.
@@ -197,7 +201,7 @@ impl Search<'_> {
             return cx.truth(false);
         };
         let plane = &self.geometry.planes[up.0.plane];
-        cx.enter(Part::Plane(up.0.plane));
+        cx.enter(TracerPart::Plane(up.0.plane));
         let permuted = AxisPermuted::along(plane.axis, ray);
         let form = constants(cx, plane.form);
         let slope = slope(cx, form, &permuted);
@@ -249,7 +253,7 @@ impl Search<'_> {
             if !(bound.entered || bound.left || bound.outwards) {
                 continue;
             }
-            cx.enter(Part::Plane(bound.number));
+            cx.enter(TracerPart::Plane(bound.number));
             let Passage {
                 starts,
                 ahead,
@@ -313,7 +317,7 @@ impl Search<'_> {
         meets = math!(cx, (meets && entered) && entry.distance < limit);
         for (bound, mut leaves, mut distance) in exits {
             if cx.recomputes() {
-                cx.enter(Part::Plane(bound.number));
+                cx.enter(TracerPart::Plane(bound.number));
                 let again = Passage::new(cx, bound, ray);
                 leaves = math!(cx, again.ahead && !again.inwards);
                 distance = again.distance;
@@ -335,7 +339,7 @@ impl Search<'_> {
         nearest: &mut Running<A>,
     ) {
         for (number, faces) in planes {
-            cx.enter(Part::Plane(*number));
+            cx.enter(TracerPart::Plane(*number));
             let plane = &self.geometry.planes[*number];
             let permuted = AxisPermuted::along(plane.axis, ray);
             let crossing = self.geometry.cross(cx, *number, &permuted, ray.from);
@@ -394,7 +398,27 @@ impl Search<'_> {
     }
 }
 
-impl<A: Arith> Nearest<A> for Search<'_> {
+impl Search<'_> {
+    /// The nearest of `hit`, which is on a polygon, and the spheres.
+    pub(crate) fn nearer_ball<A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        wanted: A::Bool,
+        hit: Hit<A>,
+    ) -> Hit<A> {
+        if self.geometry.balls.is_empty() {
+            return hit;
+        }
+        let mut nearest = Running::new(cx, ray.t_max);
+        nearest.distance = cx.select(hit.found, hit.distance, nearest.distance);
+        nearest.face = cx.select_index(hit.found, hit.face, nearest.face);
+        self.plan(ray).balls.nearest(cx, ray, &mut nearest);
+        Hit::new(cx, nearest.distance, nearest.face, wanted)
+    }
+}
+
+impl<A: Arith> NearestSearch<A> for Search<'_> {
     fn nearest(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
         let plan = self.plan(ray);
         let mut nearest = Running::new(cx, ray.t_max);
@@ -405,11 +429,12 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         }
         self.planes(cx, ray, &plan.planes, &mut nearest);
         for (number, body) in plan.bodies.iter().enumerate() {
-            cx.enter(Part::Body(number));
+            cx.enter(TracerPart::Body(number));
             let (meets, here) = self.body(cx, ray, body, nearest.distance);
             nearest.replace(cx, meets, &here);
             cx.leave();
         }
+        plan.balls.nearest(cx, ray, &mut nearest);
         let none = cx.index(NO_FACE);
         nearest.face = cx.select_index(gone, none, nearest.face);
         self.resolve(cx, ray, plan, &mut nearest);
@@ -417,13 +442,16 @@ impl<A: Arith> Nearest<A> for Search<'_> {
     }
 
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A> {
+        if !self.geometry.balls.is_empty() {
+            return self.nearest(cx, ray, wanted);
+        }
         let plan = self.plan(ray);
         let mut nearest = Running::new(cx, ray.t_max);
         self.planes(cx, ray, &plan.emitting, &mut nearest);
         let mut hit = nearest.hit(cx, wanted);
         let mut hidden = cx.truth(false);
         for (number, body) in plan.bodies_apart() {
-            cx.enter(Part::Body(number));
+            cx.enter(TracerPart::Body(number));
             let (meets, _) = self.body(cx, ray, body, hit.distance);
             hidden = math!(cx, hidden || meets);
             cx.leave();
@@ -445,7 +473,7 @@ impl<A: Arith> Nearest<A> for Search<'_> {
         let mut hidden = cx.truth(false);
         let end = cx.real(1.0);
         for (number, body) in plan.bodies_apart() {
-            cx.enter(Part::Body(number));
+            cx.enter(TracerPart::Body(number));
             let (meets, _) = self.body(cx, ray, body, end);
             hidden = math!(cx, hidden || meets);
             cx.leave();
@@ -457,7 +485,7 @@ impl<A: Arith> Nearest<A> for Search<'_> {
                 .geometry
                 .occluded_by(cx, *number, faces, &permuted, ray.from, lamp, hidden);
         }
-        hidden
+        plan.balls.occluded(cx, ray, lamp, hidden)
     }
 }
 

@@ -1,13 +1,16 @@
 //! A scene prepared for the tracer.
 
+use super::ball_ray::Round;
 use super::bsdf::{Emitters, ScatterStage, rank};
-use super::camera::{self, CameraStage};
-use super::geometry::Geometry;
-use super::lights::{Lamps, LightStage};
+use super::camera::{self, CameraStage, LensStage};
+use super::geometry::StageGeometry;
+use super::lights::{Lamps, LightSampling, LightStage};
 use super::pixel_class::PixelClass;
 use super::places::Places;
-use super::polygon::Frame;
+use super::polygon::FaceFrame;
+use super::ray::{self, Ray};
 use super::refraction::Refraction;
+use super::sky::SkyStage;
 use super::{Arith, bound};
 use glam::DVec3;
 use qrt_scene::valid::{Surface, ValidScene};
@@ -23,8 +26,9 @@ const FACING_AWAY: f64 = 1e-9;
 /// A scene prepared for the tracer, for `C` colour channels that share their paths.
 #[derive(Clone, Debug)]
 pub struct Stage<const C: usize> {
-    pub(crate) geometry: Geometry,
+    pub(crate) geometry: StageGeometry,
     pub(crate) camera: CameraStage,
+    pub(crate) lens: Option<LensStage>,
     /// Sample bits of the primary ray.
     pub(crate) film_bits: [u32; 2],
     /// The scene's surfaces in the stage's order, by their indices in the scene.
@@ -35,7 +39,12 @@ pub struct Stage<const C: usize> {
     pub(crate) normals: Vec<[f64; 3]>,
     /// The tangent, bitangent and centre of each face.
     pub(crate) frames: Vec<[f64; 9]>,
+    /// By face: the centre of its sphere and the inverse of the radius; zeros for a polygon. Empty
+    /// without spheres.
+    pub(crate) balls: Vec<[f64; 4]>,
     pub(crate) emitters: Emitters<C>,
+    /// The light of directions in which nothing stands.
+    pub(crate) sky: Option<SkyStage<C>>,
     /// Surfaces below this number scatter nothing.
     pub(crate) black: u32,
     /// The scattering towards each ray except the first.
@@ -90,21 +99,22 @@ impl<const C: usize> Stage<C> {
         }
         let black = surfaces.iter().filter(|s| rank(&s.scatter) == 0).count() as u32;
         let starts = camera::ray_origins(&written.camera, written.film);
-        let mut geometry = Geometry::new(
-            scene.polygons(),
-            |polygon| scene.surfaces()[polygon.surface as usize].emits(),
-            &starts,
-        );
-        let polygons = scene.polygons().iter();
-        let surface_of: Vec<u32> = polygons.map(|p| place[p.surface as usize]).collect();
+        let emits = |surface: u32| scene.surfaces()[surface as usize].emits();
+        let mut geometry = StageGeometry::new(scene.polygons(), scene.balls(), emits, &starts);
+        let written_surfaces = scene.surface_of_faces();
+        let surface_of: Vec<u32> = written_surfaces.map(|s| place[s as usize]).collect();
         let emitters = Emitters::new(&surfaces, channels);
+        let sky = written
+            .sky
+            .as_ref()
+            .and_then(|sky| SkyStage::new(sky, channels));
         let sampling = &written.sampling;
         let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
         let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
         let transmits: Vec<bool> = surface_of.iter().map(transmits).collect();
         let starts = geometry.staged(&starts);
         let (places, lamps) = if lit {
-            let number = geometry.faces.iter().filter(|face| face.emits).count();
+            let number = geometry.emitters as usize;
             let of = (&*surface_of, surfaces.len());
             let places = Places::sides(&geometry, of, &transmits, &starts, number);
             let lamps = Lamps::new(&geometry, &surfaces, &surface_of, &places);
@@ -125,7 +135,11 @@ impl<const C: usize> Stage<C> {
                 ScatterStage::new(&surfaces, channels, depth, square, squares)
             };
             if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
-                let asked = (depth, bits, sampling.lights);
+                let asked = LightSampling {
+                    depth,
+                    bits,
+                    mode: sampling.lights,
+                };
                 let radiance = emitters.radiance();
                 let numbers = 0..surfaces.len() as u32;
                 let receivers: Vec<_> = numbers.map(|surface| scatter.receiver(surface)).collect();
@@ -135,40 +149,62 @@ impl<const C: usize> Stage<C> {
             }
             scatters.push(scatter);
         }
-        let unit = scatters.iter().any(|scatter| scatter.asks_for_angles);
+        let unit = scatters.iter().any(|scatter| scatter.asks_for_angles)
+            || sky.as_ref().is_some_and(SkyStage::asks_for_directions)
+            || !geometry.balls.is_empty();
         let refraction = Refraction::new(&geometry, &surfaces, &surface_of, &starts);
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {
             let of = |refraction| {
-                bound::colour(&places, emitters.radiance(), &scatters, direct, refraction)
+                let sky = sky.as_ref().map_or([0.0; C], SkyStage::most);
+                bound::colour(
+                    &places,
+                    (emitters.radiance(), sky),
+                    &scatters,
+                    direct,
+                    refraction,
+                )
             };
             let (plain, by_solids) = (of(None), of(Some(&refraction)));
             std::array::from_fn(|c| by_solids[c].min(plain[c]))
         };
         let limit = limit(bound, emitters.radiance());
+        let balls = ball_rows(&geometry);
+        // The frame of a sphere depends on the hit.
+        let rows = geometry.frames.iter().map(frame_row);
+        let rows: Vec<[f64; 9]> = rows
+            .chain(geometry.balls.iter().map(|_| [0.0; 9]))
+            .collect();
+        let normals = geometry.frames.iter().map(|f| f.normal.to_array());
+        let normals: Vec<[f64; 3]> = normals
+            .chain(geometry.balls.iter().map(|_| [0.0; 3]))
+            .collect();
         let mut camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
         let starts_on = geometry.planes_through(&starts);
-        if camera.perspective {
+        let lens = LensStage::new(written, &geometry);
+        if camera.perspective && lens.is_none() {
             geometry.pass_through(camera.fixed);
         } else if let Some(&plane) = starts_on.first() {
             camera.from = plane;
         }
-        let frames = geometry.frames.iter();
         Self {
             camera,
+            lens,
             order,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
             surface_of,
-            normals: frames.clone().map(|f| f.normal.to_array()).collect(),
-            frames: frames.map(frame_row).collect(),
+            normals,
+            frames: rows,
+            balls,
             emitters,
+            every_hit: sky.is_some(),
+            sky,
             black,
             scatters,
             starts,
             starts_on,
             transmits,
             direct,
-            every_hit: false,
             bound,
             limit,
             t_max: 2.0 * geometry.radius(),
@@ -180,6 +216,9 @@ impl<const C: usize> Stage<C> {
     /// [`Stage::bound`] and [`Stage::limit`] stay in the scene's units.
     pub fn relative(mut self) -> Self {
         self.emitters.in_units(self.bound);
+        if let Some(sky) = &mut self.sky {
+            sky.in_units(self.bound);
+        }
         for scatter in &mut self.scatters {
             if let Some(lights) = &mut scatter.lights {
                 lights.in_units(self.bound);
@@ -188,21 +227,41 @@ impl<const C: usize> Stage<C> {
         self
     }
 
+    /// The hit on `face` as one on a sphere, in a scene that has spheres.
+    #[inline(always)]
+    pub(super) fn round<A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        distance: A::Real,
+        face: A::Index,
+    ) -> Option<Round<A>> {
+        if self.balls.is_empty() {
+            return None;
+        }
+        let point = ray::point_at(cx, ray, distance);
+        let first = self.geometry.corners.len() as u32;
+        Some(Round::new(cx, (first, &self.balls), face, point))
+    }
+
     /// The same stage, whose last rays are searched for every hit. Colours stay the same.
-    pub fn with_every_hit(mut self) -> Self {
+    pub(crate) fn with_every_hit(mut self) -> Self {
         self.every_hit = true;
         self
     }
 
     /// The same stage, whose primary rays have directions of unit length.
-    pub fn with_unit_directions(mut self) -> Self {
+    pub(crate) fn with_unit_directions(mut self) -> Self {
         self.camera.unit = self.camera.perspective;
         self
     }
 
     /// Number of rays of a path that are traced. This excludes the last ray if lamps are sampled and rays
     /// that meet them count nothing.
-    pub fn traced_rays(&self) -> usize {
+    pub(crate) fn traced_rays(&self) -> usize {
+        if self.sky.is_some() {
+            return self.depths();
+        }
         let last = self.scatters.last();
         let lights = last.and_then(|scatter| scatter.lights.as_ref());
         self.depths() - usize::from(lights.is_some_and(|lights| !lights.rays_count()))
@@ -267,7 +326,7 @@ impl<const C: usize> Stage<C> {
         self.order.iter().map(value).collect()
     }
 
-    /// The unit normal of a face's front, by the face's label.
+    /// The unit normal of a polygon's front, by its label; zeros for a sphere.
     pub fn normal(&self, face: usize) -> [f64; 3] {
         self.normals[face]
     }
@@ -277,8 +336,8 @@ impl<const C: usize> Stage<C> {
         &self.camera
     }
 
-    /// The polygons, made ready for intersection.
-    pub fn geometry(&self) -> &Geometry {
+    /// The faces, made ready for intersection.
+    pub fn geometry(&self) -> &StageGeometry {
         &self.geometry
     }
 }
@@ -291,16 +350,27 @@ fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]]) -> [f64; C] {
     })
 }
 
-fn frame_row(frame: &Frame) -> [f64; 9] {
+fn frame_row(frame: &FaceFrame) -> [f64; 9] {
     let (t, b, c) = (frame.tangent, frame.bitangent, frame.centre);
     [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
 }
 
-/// By surface: true if some polygon has it. Unused surfaces cost nothing.
+/// By face: the centre and the inverse of the radius of its sphere, or zeros; empty without spheres.
+fn ball_rows(geometry: &StageGeometry) -> Vec<[f64; 4]> {
+    if geometry.balls.is_empty() {
+        return Vec::new();
+    }
+    let polygons = geometry.corners.iter().map(|_| [0.0; 4]);
+    let balls = geometry.balls.iter();
+    let balls = balls.map(|b| [b.centre.x, b.centre.y, b.centre.z, 1.0 / b.radius]);
+    polygons.chain(balls).collect()
+}
+
+/// By surface: true if some face has it. Unused surfaces cost nothing.
 fn used(scene: &ValidScene) -> Vec<bool> {
     let mut used = vec![false; scene.surfaces().len()];
-    for polygon in scene.polygons() {
-        used[polygon.surface as usize] = true;
+    for surface in scene.surface_of_faces() {
+        used[surface as usize] = true;
     }
     used
 }

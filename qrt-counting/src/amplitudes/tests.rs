@@ -3,7 +3,9 @@
 use super::*;
 use crate::PhaseDistribution;
 use crate::random::Stream;
-use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumGate, Window};
+use qrt_circuit::quantum::{
+    CircuitPart, Conjunction, CountingCircuit, PhaseOracle, QuantumGate, Window,
+};
 use qrt_machines::statevector::{Checks, Dense, Sparse, StateVector, count, fold};
 
 const WINDOWS: [Window; 2] = [Window::Rect, Window::Sine];
@@ -36,10 +38,10 @@ fn table(bits: u32, good: usize, seed: u64) -> Vec<bool> {
     table
 }
 
-fn run<M: StateVector>(counting: &Counting<'_>, mut machine: M) -> Vec<f64> {
+fn run<M: StateVector>(counting: &CountingCircuit<'_>, mut machine: M) -> Vec<f64> {
     let counted = count(&mut machine, counting, Checks::EveryQuery).unwrap();
     assert!((counted.report.norm - 1.0).abs() < 1e-12);
-    assert_eq!(counted.report.gates, counting.gates(Part::Counting));
+    assert_eq!(counted.report.gates, counting.gates(CircuitPart::Counting));
     counted.distribution
 }
 
@@ -68,7 +70,7 @@ fn all_models_agree() {
                 let exact = closed(good, total, phase_bits, window);
                 for conjunction in [Conjunction::Whole, Conjunction::Toffolis] {
                     let counting =
-                        Counting::with(&oracle, phase_bits, window, conjunction).unwrap();
+                        CountingCircuit::with(&oracle, phase_bits, window, conjunction).unwrap();
                     let dense = Dense::new(counting.qubits()).unwrap();
                     agree(&run(&counting, dense), &exact, &format!("dense, {what}"));
                     let sparse = Sparse::new(counting.qubits());
@@ -126,12 +128,12 @@ fn the_sign_of_the_reflection_matters() {
     let table = table(bits, good as usize, 1);
     let oracle = PhaseOracle::table(bits, |id| table[id as usize]).unwrap();
     for window in WINDOWS {
-        let counting = Counting::new(&oracle, phase_bits, window).unwrap();
+        let counting = CountingCircuit::new(&oracle, phase_bits, window).unwrap();
         let mut dense = Dense::new(counting.qubits()).unwrap();
         let mut sparse = Sparse::new(counting.qubits());
         let mut left_out = 0;
         counting
-            .part(Part::Counting, &mut |gate| {
+            .part(CircuitPart::Counting, &mut |gate| {
                 // A Z on a counting qubit corrects O_0's sign, and no other gate is a Z on a
                 // counting qubit.
                 if let QuantumGate::Phase { on: [qubit], .. } = gate
@@ -159,17 +161,17 @@ fn the_sign_of_the_reflection_matters() {
 /// An oracle that leaves garbage in an ancilla is detected: after the first query, or at the end.
 #[test]
 fn what_an_oracle_leaves_behind_is_found() {
-    use qrt_circuit::{Circuit, Gate};
-    let circuit = |gates: &[Gate]| Circuit {
+    use qrt_circuit::{Gate, GateCircuit};
+    let circuit = |gates: &[Gate]| GateCircuit {
         gates: gates.to_vec(),
         qubits: 4,
-        ..Circuit::default()
+        ..GateCircuit::default()
     };
     let compute = circuit(&[Gate::Ccx(0, 1, 2), Gate::Cx(1, 3)]);
     let uncompute = circuit(&[Gate::Ccx(0, 1, 2)]);
     let flip = circuit(&[Gate::Z(2)]);
     let oracle = PhaseOracle::new(&compute, &flip, &uncompute, vec![0, 1], &[]).unwrap();
-    let counting = Counting::new(&oracle, 3, Window::Rect).unwrap();
+    let counting = CountingCircuit::new(&oracle, 3, Window::Rect).unwrap();
     for checks in [Checks::EveryQuery, Checks::AtTheEnd] {
         let found = count(&mut Sparse::new(counting.qubits()), &counting, checks);
         let Err(StateVectorError::Dirty { qubit, probability }) = found else {

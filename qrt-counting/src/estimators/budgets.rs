@@ -1,6 +1,6 @@
 //! Tests of every estimator that has a query budget, on many kinds of problems.
 
-use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::estimators::{CountingProblem, Device, Noise, Settings, estimator};
 use crate::random::Stream;
 use qrt_scene::{Counting, Estimator};
 
@@ -43,7 +43,7 @@ fn no_estimate_leaves_its_bounds_or_its_queries() {
                         settings.error = Some(1e-2);
                     }
                     let estimator = estimator(name, &settings).unwrap();
-                    let problem = Problem { good, total };
+                    let problem = CountingProblem { good, total };
                     let noise: Noise = noises[index % 3].parse().unwrap();
                     let mut stream = Stream::new(queries, 0, 0, 0);
                     let mut device = Device::new(problem, noise, &mut stream).unwrap();
@@ -87,7 +87,7 @@ fn intervals_hold_the_amplitude() {
                     let amplitude = amplitude.unwrap_or_else(|| stream.uniform());
                     let good = (amplitude * total as f64) as u64;
                     let truth = good as f64 / total as f64;
-                    let problem = Problem { good, total };
+                    let problem = CountingProblem { good, total };
                     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
                     let found = estimator.estimate(&mut device).unwrap();
                     let (low, high) = found.interval;
@@ -110,7 +110,7 @@ fn no_device_is_bad_enough_to_loop() {
         for noise in ["depolarising=1", "depolarising=0.001", "readout=1"] {
             for good in [0, 1, 77, 128, 255, 256] {
                 let estimator = estimator(name, &settings(1 << 45)).unwrap();
-                let problem = Problem { good, total: 256 };
+                let problem = CountingProblem { good, total: 256 };
                 let mut stream = Stream::new(5, 0, 0, 0);
                 let mut device = Device::new(problem, noise.parse().unwrap(), &mut stream).unwrap();
                 let found = estimator.estimate(&mut device).unwrap();

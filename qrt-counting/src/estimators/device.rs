@@ -11,26 +11,18 @@ mod strata;
 
 pub use strata::CountedStratum;
 
-use super::{Estimate, EstimatorError, Noise};
+use super::{Estimate, EstimatorError, MAX_ITERATIONS, Noise, id_bits};
 use crate::random::Stream;
 use crate::{Angle, PhaseDistribution, binomial, good_id};
-use qrt_scene::Window;
-
-/// The largest number of Grover iterations between preparation and measurement.
-pub const MAX_ITERATIONS: u64 = 1 << 44;
+use qrt_circuit::quantum::Window;
 
 /// The quantity to estimate. The device knows it, the estimator does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Problem {
+pub struct CountingProblem {
     /// S, the number of good indices, in `0..=N`.
     pub good: u64,
     /// N, the number of all indices, at least 1.
     pub total: u64,
-}
-
-/// Number of qubits of an index among `total`, which is at least 1.
-pub(super) fn id_bits(total: u64) -> u32 {
-    u64::BITS - (total - 1).leading_zeros()
 }
 
 /// Numbers of queries and shots of a device since its creation.
@@ -52,7 +44,7 @@ pub struct Usage {
 /// A device that runs circuits with the oracle of one problem, and counts queries and shots.
 #[derive(Debug)]
 pub struct Device<'a> {
-    problem: Problem,
+    problem: CountingProblem,
     theta: Angle,
     noise: Noise,
     stream: &'a mut Stream,
@@ -66,11 +58,11 @@ impl<'a> Device<'a> {
     /// # Errors
     /// No indices, more good indices than indices, or noise out of range.
     pub fn new(
-        problem: Problem,
+        problem: CountingProblem,
         noise: Noise,
         stream: &'a mut Stream,
     ) -> Result<Self, EstimatorError> {
-        let Problem { good, total } = problem;
+        let CountingProblem { good, total } = problem;
         noise.check()?;
         Ok(Self {
             problem,
@@ -138,7 +130,7 @@ impl<'a> Device<'a> {
     /// Number of good indices among `shots` random ones, drawn with replacement; one query each.
     pub fn paths(&mut self, shots: u64) -> u64 {
         self.spend(shots, 1);
-        let Problem { good, total } = self.problem;
+        let CountingProblem { good, total } = self.problem;
         let found = binomial::draw(shots, good, total, self.stream);
         self.usage.good_ids += found;
         self.read_paths([found, shots - found]);
@@ -228,7 +220,7 @@ impl<'a> Device<'a> {
         window: Window,
         repetitions: u32,
     ) -> Result<Vec<u64>, EstimatorError> {
-        let Problem { good, total } = self.problem;
+        let CountingProblem { good, total } = self.problem;
         let distribution = PhaseDistribution::new(good, total, phase_bits, window)?;
         let sampler = distribution.sampler();
         let size = 1_u64 << phase_bits;

@@ -1,8 +1,10 @@
 //! Errors of estimators: invalid settings and problems.
 
-use super::MAX_ITERATIONS;
 use crate::CountingError;
 use qrt_scene::Estimator;
+
+/// The largest number of Grover iterations between preparation and measurement.
+pub const MAX_ITERATIONS: u64 = 1 << 44;
 
 /// An error of an estimator or its device.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

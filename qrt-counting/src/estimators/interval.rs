@@ -12,7 +12,7 @@
 //! goes from the lower median minus w to the upper median plus w.
 
 use super::clopper_pearson::clopper_pearson;
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 use std::f64::consts::PI;
 
 /// The largest fraction of a step that [`median_steps`] subtracts from a whole number of steps.

@@ -40,8 +40,8 @@ mod windowed;
 
 pub use abrams_williams::AbramsWilliams;
 pub use bayes::{AdaptiveBayes, RandomDepth};
-pub use device::{CountedStratum, Device, MAX_ITERATIONS, Problem, Usage};
-pub use error::EstimatorError;
+pub use device::{CountedStratum, CountingProblem, Device, Usage};
+pub use error::{EstimatorError, MAX_ITERATIONS};
 pub use exact::Exact;
 pub use iterative::Iterative;
 pub use mlae::Mlae;
@@ -85,6 +85,11 @@ pub struct Estimate {
     /// Number of strata of the comparator that were counted on their own; 1 if the whole was
     /// counted at once.
     pub strata: u32,
+}
+
+/// Number of qubits of an index among `total`, which is at least 1.
+fn id_bits(total: u64) -> u32 {
+    u64::BITS - (total - 1).leading_zeros()
 }
 
 /// An estimator of the fraction of good indices.
@@ -154,13 +159,14 @@ pub fn estimator(
 /// A problem or a setting out of range.
 ///
 /// ```
-/// use qrt_counting::{estimators::{Problem, estimate}, random::Stream};
-/// use qrt_scene::{Counting, Estimator, Window};
+/// use qrt_counting::{estimators::{CountingProblem, estimate}, random::Stream};
+/// use qrt_circuit::quantum::Window;
+/// use qrt_scene::{Counting, Estimator};
 /// let counting = Counting {
 ///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
 ///     strata: None, error: None,
 /// };
-/// let problem = Problem { good: 300, total: 1000 };
+/// let problem = CountingProblem { good: 300, total: 1000 };
 /// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;
 /// assert_eq!(found.queries, 3 * 255);
 /// assert!((found.amplitude - 0.3).abs() < 0.05);
@@ -169,7 +175,7 @@ pub fn estimator(
 pub fn estimate(
     name: Estimator,
     counting: &Counting,
-    problem: Problem,
+    problem: CountingProblem,
     stream: &mut Stream,
 ) -> Result<Estimate, EstimatorError> {
     let mut device = Device::new(problem, Noise::NONE, stream)?;

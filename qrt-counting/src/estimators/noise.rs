@@ -1,7 +1,7 @@
 //! Noise of a device.
 
 use super::EstimatorError;
-use super::device::id_bits;
+use super::id_bits;
 use std::fmt;
 use std::str::FromStr;
 
@@ -44,18 +44,18 @@ impl Noise {
     }
 
     /// The probability that a state survives `queries` queries.
-    pub fn intact(&self, queries: u64) -> f64 {
+    pub(crate) fn intact(&self, queries: u64) -> f64 {
         survives(self.depolarising, queries)
     }
 
     /// The probability that a shot of the shifted circuit among `total` indices survives `queries`
     /// queries, and that its index and its coin are read correctly.
-    pub fn coin_intact(&self, queries: u64, total: u64) -> f64 {
+    pub(crate) fn coin_intact(&self, queries: u64, total: u64) -> f64 {
         self.intact(queries) * self.read_rightly(id_bits(total) + 1)
     }
 
     /// The probability that `bits` bits are all read correctly.
-    pub fn read_rightly(&self, bits: u32) -> f64 {
+    pub(crate) fn read_rightly(&self, bits: u32) -> f64 {
         survives(self.readout, u64::from(bits))
     }
 }

@@ -1,10 +1,11 @@
-//! Short tests of the estimators of quantum rendering; `benches/rendering_estimators.rs` has the
+//! Short tests of the estimators of quantum rendering; `benches/estimators/rendering.rs` has the
 //! long ones.
 
-use super::{Device, Estimate, Noise, Problem, Settings, estimator};
+use super::{CountingProblem, Device, Estimate, Noise, Settings, estimator};
 use crate::PhaseDistribution;
 use crate::random::Stream;
-use qrt_scene::{Counting, Estimator, Window};
+use qrt_circuit::quantum::Window;
+use qrt_scene::{Counting, Estimator};
 
 const ESTIMATORS: [Estimator; 3] = [Estimator::Qss, Estimator::Qcoin, Estimator::AbramsWilliams];
 const COINS: [Estimator; 2] = [Estimator::Qcoin, Estimator::AbramsWilliams];
@@ -21,7 +22,13 @@ fn settings(phase_bits: u32) -> Settings {
     Settings::from_counting(&counting).unwrap()
 }
 
-fn run(name: Estimator, settings: &Settings, problem: Problem, noise: Noise, run: u32) -> Estimate {
+fn run(
+    name: Estimator,
+    settings: &Settings,
+    problem: CountingProblem,
+    noise: Noise,
+    run: u32,
+) -> Estimate {
     let mut stream = Stream::new(41, run, 0, 0);
     let mut device = Device::new(problem, noise, &mut stream).unwrap();
     estimator(name, settings)
@@ -38,7 +45,7 @@ fn coverage(name: Estimator, settings: &Settings, amplitude: Option<f64>, noise:
     for run in 0..runs {
         let mut stream = Stream::new(43, run, 0, 0);
         let amplitude = amplitude.unwrap_or_else(|| stream.uniform());
-        let problem = Problem {
+        let problem = CountingProblem {
             good: (amplitude * total as f64) as u64,
             total,
         };
@@ -98,7 +105,7 @@ fn every_budget_gives_an_answer() {
                                 known_noise,
                                 ..settings(5)
                             };
-                            let problem = Problem { good, total };
+                            let problem = CountingProblem { good, total };
                             let found = run(name, &settings, problem, noise, 0);
                             let (low, high) = found.interval;
                             assert!(found.queries <= queries && found.queries > 0);
@@ -126,7 +133,7 @@ fn an_asked_error_is_reached_and_not_much_more_is_spent() {
                     error: Some(error),
                     ..settings(5)
                 };
-                let problem = Problem {
+                let problem = CountingProblem {
                     good,
                     total: 1 << 40,
                 };
@@ -156,7 +163,7 @@ fn an_asked_error_is_reached_in_spite_of_known_noise() {
                 known_noise: noise,
                 ..settings(5)
             };
-            let problem = Problem {
+            let problem = CountingProblem {
                 good,
                 total: 1 << 20,
             };
@@ -173,7 +180,7 @@ fn an_asked_error_is_reached_in_spite_of_known_noise() {
 fn supersampling_looks_up_what_is_likeliest() {
     for (total, bits) in [(16, 4), (1000, 7), (1 << 30, 12), (1 << 60, 40)] {
         for index in 0..50 {
-            let problem = Problem {
+            let problem = CountingProblem {
                 good: total / 50 * index,
                 total,
             };

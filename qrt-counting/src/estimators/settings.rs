@@ -2,7 +2,8 @@
 
 use super::{EstimatorError, Noise};
 use crate::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
-use qrt_scene::{Counting, Window};
+use qrt_circuit::quantum::Window;
+use qrt_scene::Counting;
 
 /// The default confidence of intervals.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;

@@ -1,9 +1,12 @@
 //! Tests of all estimators.
 
 use crate::CountingError;
-use crate::estimators::{Device, EstimatorError, Noise, Problem, Settings, estimate, estimator};
+use crate::estimators::{
+    CountingProblem, Device, EstimatorError, Noise, Settings, estimate, estimator,
+};
 use crate::random::Stream;
-use qrt_scene::{Counting, Estimator, Window};
+use qrt_circuit::quantum::Window;
+use qrt_scene::{Counting, Estimator};
 
 fn counting(phase_bits: u32, repetitions: u32) -> Counting {
     Counting {
@@ -28,7 +31,7 @@ fn monte_carlo_errors_scale_as_the_literature_says() {
         let found = estimate(
             Estimator::MonteCarlo,
             &settings,
-            Problem { good, total },
+            CountingProblem { good, total },
             &mut stream,
         )
         .unwrap();
@@ -52,7 +55,7 @@ fn a_million_repetitions_neither_underflow_nor_miss() {
         let found = estimate(
             name,
             &counting(bits, 1_000_000),
-            Problem { good, total },
+            CountingProblem { good, total },
             &mut stream,
         )
         .unwrap();
@@ -79,8 +82,13 @@ fn intervals_cover_as_often_as_they_say() {
                 let good = (choice.uniform() * choice.uniform() * total as f64) as u64;
                 let mut stream = Stream::new(5, run, repetitions, 0);
                 let settings = counting(4 + run % 5, repetitions);
-                let found =
-                    estimate(name, &settings, Problem { good, total }, &mut stream).unwrap();
+                let found = estimate(
+                    name,
+                    &settings,
+                    CountingProblem { good, total },
+                    &mut stream,
+                )
+                .unwrap();
                 let truth = good as f64 / total as f64;
                 let (low, high) = found.interval;
                 assert!(0.0 <= low && low <= found.amplitude);
@@ -107,8 +115,13 @@ fn exact_is_exact_and_extremes_are_never_missed() {
             for &name in Estimator::ALL {
                 for (bits, repetitions) in [(1, 1), (2, 3), (10, 2), (40, 1)] {
                     let settings = counting(bits, repetitions);
-                    let found =
-                        estimate(name, &settings, Problem { good, total }, &mut stream).unwrap();
+                    let found = estimate(
+                        name,
+                        &settings,
+                        CountingProblem { good, total },
+                        &mut stream,
+                    )
+                    .unwrap();
                     let truth = good as f64 / total as f64;
                     assert!(found.amplitude.is_finite());
                     let certain = good == 0 || good == total;
@@ -130,7 +143,7 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
             estimate(
                 name,
                 &counting(5, 1),
-                Problem { good: 1, total: 0 },
+                CountingProblem { good: 1, total: 0 },
                 &mut stream
             ),
             Err(CountingError::NoIds.into())
@@ -138,7 +151,7 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
         let error = estimate(
             name,
             &counting(5, 1),
-            Problem { good: 3, total: 2 },
+            CountingProblem { good: 3, total: 2 },
             &mut stream,
         )
         .unwrap_err();
@@ -153,7 +166,7 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
                 estimate(
                     name,
                     &counting(bits, repetitions),
-                    Problem { good: 1, total: 2 },
+                    CountingProblem { good: 1, total: 2 },
                     &mut stream
                 )
                 .is_err()
@@ -167,7 +180,7 @@ fn what_cannot_be_estimated_is_refused_with_what_can() {
 /// With noise, the closed form is mixed with the probability of a random index.
 #[test]
 fn devices_measure_what_the_iterate_gives() {
-    let problem = Problem {
+    let problem = CountingProblem {
         good: 37,
         total: 1 << 10,
     };
@@ -211,7 +224,7 @@ fn devices_measure_what_the_iterate_gives() {
 /// After folding, the outcomes between 0 and T/2 are twice as frequent as these two.
 #[test]
 fn a_destroyed_counter_reads_anything() {
-    let problem = Problem { good: 1, total: 64 };
+    let problem = CountingProblem { good: 1, total: 64 };
     for noise in [
         Noise {
             depolarising: 1.0,
@@ -236,7 +249,7 @@ fn a_destroyed_counter_reads_anything() {
 /// Checks misread bits in a register that reads T/4 with certainty.
 #[test]
 fn wrong_bits_are_those_of_the_counter() {
-    let problem = Problem { good: 1, total: 2 };
+    let problem = CountingProblem { good: 1, total: 2 };
     let noise = Noise {
         depolarising: 0.0,
         readout: 0.1,

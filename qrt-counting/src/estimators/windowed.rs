@@ -3,7 +3,8 @@
 use super::interval::median_steps;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 use crate::maximum_likelihood;
-use qrt_scene::{Estimator, Window};
+use qrt_circuit::quantum::Window;
+use qrt_scene::Estimator;
 use std::f64::consts::PI;
 
 /// Repeated quantum counting, and the likeliest S: `paper` with the rectangular window, `sine`

@@ -1,6 +1,6 @@
 //! Tests that draws follow their distribution.
 
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use super::chi_square_is_plausible;
 use crate::PhaseDistribution;

@@ -2,7 +2,7 @@
 
 use astro_float_num::{BigFloat, Consts, RoundingMode};
 use proptest::prelude::*;
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use crate::PhaseDistribution;
 use crate::kernel::Register;

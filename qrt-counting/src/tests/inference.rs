@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 use crate::random::Stream;
 use crate::{CountingError, PhaseDistribution, ln_likelihood, maximum_likelihood, posterior};

@@ -2,7 +2,7 @@
 
 use crate::random::Stream;
 use crate::{PhaseDistribution, posterior, posterior_mean};
-use qrt_scene::Window;
+use qrt_circuit::quantum::Window;
 
 /// Compares the mean and the mass of the interval with sums over every S.
 #[test]

@@ -1,13 +1,13 @@
 //! The input of a block of states.
 
 use super::lane::LANES;
-use crate::Span;
+use crate::PixelLanes;
 use std::ops::Range;
 
 /// The input of a block of states.
 pub(super) struct Block<'a> {
     pub(super) inputs: &'a [&'a [u64]],
-    pub(super) spans: &'a [Span<'a>],
+    pub(super) spans: &'a [PixelLanes<'a>],
     /// By input: `first`, if lane l holds `first ^ (l mod 2^k)`, with the k of
     /// [`super::pattern_bits`].
     pub(super) runs: Vec<Option<u64>>,

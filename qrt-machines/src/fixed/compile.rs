@@ -2,7 +2,7 @@
 
 use super::arith::{Arg, Arith, Wrap};
 use super::lane::{Kind, Lane};
-use super::steps::{Step, StepLane};
+use super::steps::{AddressBit, Step, StepLane};
 use qrt_circuit::{Bit, Operand, Program, RegisterId, Type, Word};
 use std::collections::HashMap;
 
@@ -71,7 +71,7 @@ pub(super) struct Compiler<'a> {
     pub(super) registers: Vec<Option<Value>>,
     readings: HashMap<Reading, u32>,
     bits: HashMap<(u32, u32), u32>,
-    pub(super) addresses: HashMap<Vec<(u32, u32, bool)>, u32>,
+    pub(super) addresses: HashMap<Vec<AddressBit>, u32>,
     /// By value of an input register: the position of the input, and its number of bits.
     pub(super) inputs: HashMap<u32, (u32, u32)>,
     pub(super) sign: Option<u32>,

@@ -23,10 +23,10 @@ mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use reference::{Extremes, contents};
+pub use reference::{Extremes, contents_by_definition};
 
 use super::instructions::InstructionSet;
-use super::span::Span;
+use super::span::PixelLanes;
 use block::Block;
 use compile::Compiler;
 use lane::{Kind, LANES, Slots, Spares};
@@ -44,7 +44,7 @@ fn pattern_bits(width: u32) -> u32 {
 
 /// A program, ready to be run on blocks of states.
 #[derive(Clone, Debug)]
-pub struct Fixed {
+pub struct FixedMachine {
     steps: Vec<Step>,
     counts: Counts,
     /// By input: its width.
@@ -55,15 +55,15 @@ pub struct Fixed {
     instructions: InstructionSet,
 }
 
-/// Memory that a thread needs to run a [`Fixed`]: the lanes of its values.
+/// Memory that a thread needs to run a [`FixedMachine`]: the lanes of its values.
 #[derive(Clone, Debug)]
-pub struct Lanes {
+pub struct FixedLanes {
     slots: Slots,
     spares: Spares,
 }
 
-impl Fixed {
-    /// Number of lanes of a block: the most states that [`Fixed::run`] takes.
+impl FixedMachine {
+    /// Number of lanes of a block: the most states that [`FixedMachine::run`] takes.
     pub const LANES: usize = LANES;
 
     /// Creates a machine that computes `outputs`, which are numbers read from the program's
@@ -104,8 +104,8 @@ impl Fixed {
     }
 
     /// Creates the lanes in which a thread runs the machine.
-    pub fn lanes(&self) -> Lanes {
-        Lanes {
+    pub fn lanes(&self) -> FixedLanes {
+        FixedLanes {
             slots: self.counts.slots(),
             spares: Spares {
                 truth: Default::default(),
@@ -121,15 +121,15 @@ impl Fixed {
     /// `inputs` are the contents of the program's input registers, one per lane, and `spans` are
     /// the pixels that the lanes belong to. `outputs[k][lane]` becomes the k-th of the machine's
     /// outputs. The machine is fastest for consecutive path indices that start at a multiple of
-    /// [`Fixed::LANES`], or of their number if this is less.
+    /// [`FixedMachine::LANES`], or of their number if this is less.
     ///
     /// # Panics
-    /// If there are more than [`Fixed::LANES`] lanes, or `lanes` are of another machine.
+    /// If there are more than [`FixedMachine::LANES`] lanes, or `lanes` are of another machine.
     pub fn run(
         &self,
-        lanes: &mut Lanes,
+        lanes: &mut FixedLanes,
         inputs: &[&[u64]],
-        spans: &[Span<'_>],
+        spans: &[PixelLanes<'_>],
         outputs: &mut [&mut [i64]],
     ) {
         self.execute(lanes, inputs, spans);
@@ -143,7 +143,7 @@ impl Fixed {
     pub fn blocks<T: Send>(
         &self,
         blocks: usize,
-        block: impl Fn(&mut Lanes, usize) -> T + Sync,
+        block: impl Fn(&mut FixedLanes, usize) -> T + Sync,
     ) -> Vec<T> {
         let numbers = (0..blocks).into_par_iter();
         numbers
@@ -151,16 +151,16 @@ impl Fixed {
             .collect()
     }
 
-    /// Runs the program as [`Fixed::run`] does, and sets `signs` in the lanes whose phase is
+    /// Runs the program as [`FixedMachine::run`] does, and sets `signs` in the lanes whose phase is
     /// flipped.
     ///
     /// # Panics
-    /// As [`Fixed::run`].
+    /// As [`FixedMachine::run`].
     pub fn signs(
         &self,
-        lanes: &mut Lanes,
+        lanes: &mut FixedLanes,
         inputs: &[&[u64]],
-        spans: &[Span<'_>],
+        spans: &[PixelLanes<'_>],
         signs: &mut [bool],
     ) {
         let sign = self.outputs.last().filter(|_| self.sign);
@@ -174,7 +174,7 @@ impl Fixed {
         }
     }
 
-    fn execute(&self, lanes: &mut Lanes, inputs: &[&[u64]], spans: &[Span<'_>]) {
+    fn execute(&self, lanes: &mut FixedLanes, inputs: &[&[u64]], spans: &[PixelLanes<'_>]) {
         let runs = self.inputs.iter().zip(inputs);
         let runs = runs.map(|(width, contents)| run_of(contents, *width));
         let block = Block {
@@ -201,7 +201,7 @@ fn run_of(contents: &[u64], width: u32) -> Option<u64> {
     (differ == 0).then_some(first)
 }
 
-impl Lanes {
+impl FixedLanes {
     fn read(&self, kind: Kind, place: u32, out: &mut [i64]) {
         let place = place as usize;
         match kind {
@@ -222,7 +222,7 @@ fn widen<K: Copy + Into<i64>>(lanes: &[K; LANES], out: &mut [i64]) {
 
 struct Run<'a> {
     steps: &'a [Step],
-    lanes: &'a mut Lanes,
+    lanes: &'a mut FixedLanes,
     block: &'a Block<'a>,
 }
 
@@ -231,7 +231,7 @@ impl WithSimd for Run<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Lanes { slots, spares } = self.lanes;
+        let FixedLanes { slots, spares } = self.lanes;
         for step in self.steps {
             step.run(slots, spares, self.block);
         }

@@ -8,7 +8,7 @@ use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
 use super::product::{Factor, How, Product};
 use super::quotient::Quotient;
-use super::steps::{Step, StepLane};
+use super::steps::{AddressBit, Step, StepLane};
 use super::table;
 use qrt_circuit::{Bit, Op, Operand, RegisterId, Word};
 
@@ -317,9 +317,11 @@ impl Compiler<'_> {
                 self.word(word, Kind::Int)
             }
             _ => {
-                let digits = bits.iter().enumerate();
-                let digits =
-                    digits.map(|(place, bit)| (self.bit(*bit), place as u32, bit.inverted));
+                let digits = bits.iter().enumerate().map(|(place, bit)| AddressBit {
+                    truth: self.bit(*bit),
+                    place: place as u32,
+                    negated: bit.inverted,
+                });
                 let digits: Vec<_> = digits.collect();
                 if let Some(address) = self.addresses.get(&digits) {
                     return *address;

@@ -19,7 +19,7 @@ pub(super) enum How {
     Short,
     /// Factors of 32 bits, in 64.
     Int,
-    /// Factors of 63 and of 32 bits: multiplies the halves of the first by the second.
+    /// Any factor, and one in -2^31 .. 2^31: multiplies the halves of the first by the second.
     Half,
     /// Factors in -2^62 .. 2^62: multiplies halves by halves.
     Halves,
@@ -94,7 +94,10 @@ fn ints(t: &mut Row<i32>, factors: impl Iterator<Item = [i64; 2]>, cut: impl Fn(
     }
 }
 
-/// `floor(a b / 2^drop)` mod 2^64, for b of 32 bits.
+/// `floor(a b / 2^drop)` mod 2^64, for any `a`, b in -2^31 .. 2^31, and `drop` below 96.
+///
+/// Both products fit: that of the upper half is at most 2^62, that of the lower half at most 2^63 -
+/// 2^31.
 #[inline(always)]
 fn half(a: i64, b: i64, drop: u32) -> i64 {
     let (high, low) = ((a >> 32).wrapping_mul(b), (a & LOW).wrapping_mul(b));
@@ -105,7 +108,7 @@ fn half(a: i64, b: i64, drop: u32) -> i64 {
     }
 }
 
-/// As [`half`], for factors in -2^62 .. 2^62, so that the middle sum fits.
+/// As [`half`], for factors in -2^62 .. 2^62, so that the middle sum fits, and `drop` below 128.
 #[inline(always)]
 fn halves(a: i64, b: i64, drop: u32) -> i64 {
     let ((ah, al), (bh, bl)) = ((a >> 32, a & LOW), (b >> 32, b & LOW));
@@ -250,5 +253,52 @@ impl Product {
             see(Seen::read(kind, b));
         }
         see(Seen::computed(self.to.0, &mut self.to.1));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ends of `-2^bits .. 2^bits`, their neighbours, and numbers at the seam of the halves.
+    fn extremes(bits: u32) -> Vec<i64> {
+        let end = 1_i128 << bits;
+        let seam = [LOW - 1, LOW, LOW + 1, 1 << 31, (1 << 31) - 1].map(i128::from);
+        let near = [-end, 1 - end, 2 - end, -1, 0, 1, end - 2, end - 1];
+        let all = near.into_iter().chain(seam).chain(seam.map(|n| -n));
+        let within = all.filter(|n| (-end..end).contains(n));
+        within.map(|n| i64::try_from(n).unwrap()).collect()
+    }
+
+    fn exact(a: i64, b: i64, drop: u32) -> i64 {
+        ((i128::from(a) * i128::from(b)) >> drop) as i64
+    }
+
+    #[test]
+    fn half_products_are_exact_at_the_ends_of_their_factors() {
+        for a in extremes(63) {
+            for b in extremes(31) {
+                assert_eq!(How::long([a, a], [b, b]), How::Half);
+                for drop in 0..96 {
+                    assert_eq!(half(a, b, drop), exact(a, b, drop), "{a} {b} >> {drop}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn products_of_halves_are_exact_at_the_ends_of_their_factors() {
+        for a in extremes(62) {
+            for b in extremes(62) {
+                for drop in 0..128 {
+                    assert_eq!(halves(a, b, drop), exact(a, b, drop), "{a} {b} >> {drop}");
+                }
+            }
+        }
+        let wide = |n: i64| [n, n];
+        let (inside, outside) = ((1 << 62) - 1, 1 << 62);
+        assert_eq!(How::long(wide(inside), wide(-1 << 62)), How::Halves);
+        assert_eq!(How::long(wide(outside), wide(inside)), How::Whole);
+        assert_eq!(How::long(wide(inside), wide(outside)), How::Whole);
     }
 }

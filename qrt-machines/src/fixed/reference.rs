@@ -7,7 +7,7 @@ use qrt_circuit::{Contents, Program};
 ///
 /// # Panics
 /// If there are fewer inputs or parameters than the program has.
-pub fn contents(program: &Program, inputs: &[u64], parameters: &[u64]) -> Contents {
+pub fn contents_by_definition(program: &Program, inputs: &[u64], parameters: &[u64]) -> Contents {
     follow(program, inputs, parameters, |_| {})
 }
 
@@ -47,10 +47,10 @@ impl Extremes {
         }
     }
 
-    /// Runs the program as [`contents`] does, and records the contents of its registers on the way.
+    /// Runs the program as [`contents_by_definition`] does, and records the contents of its registers on the way.
     ///
     /// # Panics
-    /// As [`contents`].
+    /// As [`contents_by_definition`].
     pub fn record(&mut self, program: &Program, inputs: &[u64], parameters: &[u64]) -> Contents {
         follow(program, inputs, parameters, |contents| {
             let held = self.registers.iter_mut().zip(&program.registers);

@@ -41,12 +41,22 @@ pub(super) enum Step {
         table: Box<[u32]>,
         t: u32,
     },
-    /// An Int from truths: for each truth its slot, its place in the Int, and whether it is
-    /// negated.
+    /// An Int from truths.
     Address {
-        bits: Box<[(u32, u32, bool)]>,
+        bits: Box<[AddressBit]>,
         t: u32,
     },
+}
+
+/// A bit of an Int that is put together from truths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct AddressBit {
+    /// The slot of the truth.
+    pub(super) truth: u32,
+    /// The place of the bit in the Int.
+    pub(super) place: u32,
+    /// True if the bit is the negation of the truth.
+    pub(super) negated: bool,
 }
 
 /// A type of lane on which steps compute.
@@ -164,11 +174,11 @@ impl Step {
             Self::Address { ref bits, t } => {
                 let row = &mut spares.int;
                 row.0.fill(0);
-                for (truth, place, flip) in bits {
-                    let flip = u8::from(*flip);
-                    let truths = &slots.truths[*truth as usize].0;
+                for bit in bits {
+                    let flip = u8::from(bit.negated);
+                    let truths = &slots.truths[bit.truth as usize].0;
                     for (t, truth) in row.0.iter_mut().zip(truths) {
-                        *t |= i32::from(truth ^ flip) << place;
+                        *t |= i32::from(truth ^ flip) << bit.place;
                     }
                 }
                 std::mem::swap(row, &mut slots.ints[t as usize]);
@@ -204,8 +214,8 @@ impl Step {
                 see(Seen::computed(Kind::Truth, t));
             }
             Self::Address { bits, t } => {
-                for (truth, _, _) in bits {
-                    see(Seen::read(Kind::Truth, truth));
+                for bit in bits {
+                    see(Seen::read(Kind::Truth, &mut bit.truth));
                 }
                 see(Seen::computed(Kind::Int, t));
             }

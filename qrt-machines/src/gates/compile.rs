@@ -1,7 +1,7 @@
 //! Compiles a list of gates to code: runs of patterns, and the rows that they work on.
 
 use super::patterns::PATTERNS;
-use qrt_circuit::{Circuit, Gate, Qubit};
+use qrt_circuit::{Gate, GateCircuit, Qubit};
 use std::cmp::Reverse;
 use std::sync::LazyLock;
 
@@ -22,7 +22,7 @@ pub(super) struct Wiring {
 }
 
 impl Wiring {
-    pub(super) fn new(circuits: &[&Circuit]) -> Self {
+    pub(super) fn new(circuits: &[&GateCircuit]) -> Self {
         let qubits = circuits.iter().map(|c| c.qubits).max().unwrap_or(0);
         let mut widths: Vec<u32> = Vec::new();
         for circuit in circuits {

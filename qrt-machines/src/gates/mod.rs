@@ -2,9 +2,9 @@
 //!
 //! X, CNOT and Toffoli permute the basis states. Therefore each basis state stays a single basis
 //! state, and a gate does the same to all of them: `t ^= 1`, `t ^= a`, `t ^= a & b`. A *row* holds
-//! one qubit of [`Gates::lanes`] states, one bit each, and a gate is a few instructions on vectors
-//! of bits. States span paths and pixels: the classical parameters, which are built into a pixel's
-//! circuit, are rows that gates read.
+//! one qubit of [`GatesMachine::lanes`] states, one bit each, and a gate is a few instructions on
+//! vectors of bits. States span paths and pixels: the classical parameters, which are built into a
+//! pixel's circuit, are rows that gates read.
 //!
 //! The machine does not interpret qubits as numbers: it computes what the list of gates computes.
 //! Therefore the machine that computes with integers is checked against it.
@@ -20,7 +20,7 @@ pub use rows::{Dirty, Rows};
 use super::instructions::InstructionSet;
 use compile::Wiring;
 use pulp::{Simd, WithSimd, bytemuck};
-use qrt_circuit::{Circuit, Gate, Qubit};
+use qrt_circuit::{Gate, GateCircuit, Qubit};
 use rayon::prelude::*;
 use rows::LANES;
 use std::cell::Cell;
@@ -41,13 +41,13 @@ pub struct InvalidGate {
 /// Circuits, ready to be run on rows of states.
 ///
 /// ```
-/// use qrt_circuit::{Circuit, Gate, Qubit};
-/// use qrt_machines::Gates;
+/// use qrt_circuit::{GateCircuit, Gate, Qubit};
+/// use qrt_machines::GatesMachine;
 ///
 /// // A half adder: the sum of qubits 0 and 1, in 1 and 2.
 /// let gates = vec![Gate::Ccx(0, 1, 2), Gate::Cx(0, 1)];
-/// let circuit = Circuit { gates, qubits: 3, ..Circuit::default() };
-/// let machine = Gates::new(&[&circuit])?;
+/// let circuit = GateCircuit { gates, qubits: 3, ..GateCircuit::default() };
+/// let machine = GatesMachine::new(&[&circuit])?;
 /// let mut rows = machine.rows();
 /// rows.set(&[0], &[0, 1, 0, 1]);
 /// rows.set(&[1], &[0, 0, 1, 1]);
@@ -58,7 +58,7 @@ pub struct InvalidGate {
 /// # Ok::<(), qrt_machines::InvalidGate>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Gates {
+pub struct GatesMachine {
     code: Vec<Box<[u32]>>,
     lengths: Vec<usize>,
     wiring: Wiring,
@@ -67,8 +67,8 @@ pub struct Gates {
     words: usize,
 }
 
-impl Gates {
-    /// Largest number of states that a machine's rows hold: see [`Gates::lanes`].
+impl GatesMachine {
+    /// Largest number of states that a machine's rows hold: see [`GatesMachine::lanes`].
     pub const LANES: usize = LANES;
 
     /// Creates a machine for circuits that share their qubits and their list of classical
@@ -76,7 +76,7 @@ impl Gates {
     ///
     /// # Errors
     /// If a gate is invalid: see [`InvalidGate`].
-    pub fn new(circuits: &[&Circuit]) -> Result<Self, InvalidGate> {
+    pub fn new(circuits: &[&GateCircuit]) -> Result<Self, InvalidGate> {
         let wiring = Wiring::new(circuits);
         let code = circuits.iter().enumerate().map(|(place, circuit)| {
             let compiled = wiring.compile(&circuit.gates);
@@ -100,16 +100,16 @@ impl Gates {
         self
     }
 
-    /// Sets the length of rows for [`Gates::run_queued`], which takes many [`Rows`]. If not even
-    /// one of them fits into `bytes` bytes, it holds 256 states.
+    /// Sets the length of rows for [`GatesMachine::run_queued`], which takes many [`Rows`]. If not
+    /// even one of them fits into `bytes` bytes, it holds 256 states.
     pub fn for_many_rows(self, bytes: usize) -> Self {
         let words = rows::words_of_many(self.wiring.rows(), bytes);
         self.with_words(words)
     }
 
     /// Returns the number of [`Rows`] that fit into `bytes` bytes, at least 1. If
-    /// [`Gates::run_queued`] gets that many, a large number of states share the time that it takes
-    /// to read the gates.
+    /// [`GatesMachine::run_queued`] gets that many, a large number of states share the time that it
+    /// takes to read the gates.
     pub fn rows_at_once(&self, bytes: usize) -> usize {
         rows::at_once(self.wiring.rows(), self.words, bytes)
     }
@@ -130,9 +130,9 @@ impl Gates {
         self
     }
 
-    /// Number of states that this machine's rows hold: [`Gates::LANES`], or a half or a quarter of
-    /// them if the number of qubits is so large that longer rows would not stay in the processor's
-    /// caches. After [`Gates::for_many_rows`] it may also be an eighth.
+    /// Number of states that this machine's rows hold: [`GatesMachine::LANES`], or a half or a
+    /// quarter of them if the number of qubits is so large that longer rows would not stay in the
+    /// processor's caches. After [`GatesMachine::for_many_rows`] it may also be an eighth.
     pub fn lanes(&self) -> usize {
         64 * self.words
     }
@@ -147,7 +147,7 @@ impl Gates {
         self.lengths[circuit] == 0
     }
 
-    /// Creates rows for [`Gates::lanes`] states, all of whose qubits are zero.
+    /// Creates rows for [`GatesMachine::lanes`] states, all of whose qubits are zero.
     pub fn rows(&self) -> Rows {
         Rows::new(&self.wiring, self.words)
     }
@@ -166,7 +166,7 @@ impl Gates {
     }
 
     /// Compiles gates on `qubits` qubits of their own and on the machine's parameters.
-    /// [`Gates::queue`] then places them on any qubits of the machine.
+    /// [`GatesMachine::queue`] then places them on any qubits of the machine.
     ///
     /// # Errors
     /// If a gate is invalid.

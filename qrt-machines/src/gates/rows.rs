@@ -1,7 +1,7 @@
 //! States, bit-sliced: a row of bits for each qubit.
 
 use super::compile::Wiring;
-use crate::Span;
+use crate::PixelLanes;
 use crate::transpose::transpose;
 use qrt_circuit::Qubit;
 use std::fmt;
@@ -66,8 +66,8 @@ impl fmt::Display for Dirty {
     }
 }
 
-/// [`super::Gates::lanes`] states: their qubits, the signs of their amplitudes, and the classical
-/// parameters of their pixels.
+/// [`super::GatesMachine::lanes`] states: their qubits, the signs of their amplitudes, and the
+/// classical parameters of their pixels.
 #[derive(Debug)]
 pub struct Rows {
     words: Vec<u64>,
@@ -125,8 +125,8 @@ impl Rows {
     /// lanes.
     ///
     /// # Panics
-    /// If there are more than 64 qubits or [`super::Gates::lanes`] values, or a qubit that the
-    /// circuits do not have.
+    /// If there are more than 64 qubits or [`super::GatesMachine::lanes`] values, or a qubit that
+    /// the circuits do not have.
     pub fn get(&self, qubits: &[Qubit], values: &mut [u64]) {
         assert!(qubits.len() <= 64, "a value has 64 bits");
         for (word, values) in values.chunks_mut(64).enumerate() {
@@ -151,7 +151,7 @@ impl Rows {
 
     /// Sets the classical parameters to those of the spans' pixels, lane after lane from 0 on. The
     /// remaining lanes belong to the last span.
-    pub fn set_parameters(&mut self, spans: &[Span<'_>]) {
+    pub fn set_parameters(&mut self, spans: &[PixelLanes<'_>]) {
         let lanes = 64 * self.length;
         for (parameter, bit, row) in self.wiring.clone().parameters() {
             let words = self.row_mut(row);

@@ -1,7 +1,7 @@
 use super::compile::Wiring;
 use super::patterns::PATTERNS;
 use super::*;
-use crate::Span;
+use crate::PixelLanes;
 use proptest::prelude::*;
 use qrt_circuit::{Gate, Parameter, Qubit};
 
@@ -31,16 +31,16 @@ impl State {
     }
 }
 
-fn circuit(gates: Vec<Gate>, qubits: u32) -> Circuit {
+fn circuit(gates: Vec<Gate>, qubits: u32) -> GateCircuit {
     let word = |width| Parameter {
         name: String::new(),
         width,
     };
-    Circuit {
+    GateCircuit {
         gates,
         qubits,
         parameters: vec![word(3), word(1)],
-        ..Circuit::default()
+        ..GateCircuit::default()
     }
 }
 
@@ -85,14 +85,16 @@ fn gates() -> impl Strategy<Value = Vec<Gate>> {
 /// Checks all states of the qubits, in 4 pixels; in shorter rows, the states that fit.
 fn check(gates: &[Gate], set: InstructionSet) {
     let circuit = circuit(gates.to_vec(), QUBITS);
-    let machine = Gates::new(&[&circuit]).unwrap().with_instructions(set);
+    let machine = GatesMachine::new(&[&circuit])
+        .unwrap()
+        .with_instructions(set);
     assert_eq!(machine.lanes(), LANES);
     for words in rows::LENGTHS {
         check_lanes(gates, &machine.clone().with_words(words), set);
     }
 }
 
-fn check_lanes(gates: &[Gate], machine: &Gates, set: InstructionSet) {
+fn check_lanes(gates: &[Gate], machine: &GatesMachine, set: InstructionSet) {
     let lanes = machine.lanes();
     let mut rows = machine.rows();
     let qubits: Vec<Qubit> = (0..QUBITS).collect();
@@ -100,7 +102,7 @@ fn check_lanes(gates: &[Gate], machine: &Gates, set: InstructionSet) {
     let contents: Vec<u64> = (0..lanes as u64).map(|lane| 5 * lane % states).collect();
     let span = lanes / 4;
     let words: Vec<[u64; 2]> = (0..4).map(|pixel| [3 * pixel % 8, pixel / 2]).collect();
-    let spans = words.iter().map(|words| Span {
+    let spans = words.iter().map(|words| PixelLanes {
         lanes: span,
         parameters: words,
     });
@@ -135,7 +137,7 @@ proptest! {
 
     #[test]
     fn what_is_set_is_read_back(values in proptest::collection::vec(any::<u64>(), 1..LANES)) {
-        let machine = Gates::new(&[&circuit(Vec::new(), 70)]).unwrap();
+        let machine = GatesMachine::new(&[&circuit(Vec::new(), 70)]).unwrap();
         let mut rows = machine.rows();
         let qubits: Vec<Qubit> = (3..67).rev().collect();
         rows.set(&qubits, &values);
@@ -164,7 +166,7 @@ fn each_pattern_is_recognised_and_does_what_its_gates_do() {
 fn a_qubit_left_behind_is_found_in_its_lane() {
     // Qubit 2 keeps the conjunction of 0 and 1.
     let gates = vec![Gate::Ccx(0, 1, 2), Gate::Cx(0, 1)];
-    let machine = Gates::new(&[&circuit(gates, 3)]).unwrap();
+    let machine = GatesMachine::new(&[&circuit(gates, 3)]).unwrap();
     let mut rows = machine.rows();
     rows.set(&[0], &[1, 1, 0, 1]);
     rows.set(&[1], &[0, 0, 1, 1]);
@@ -192,11 +194,11 @@ fn parts_of_a_circuit_run_on_the_same_rows() {
         2,
     );
     let flag = circuit(vec![Gate::Z(1)], 2);
-    let machine = Gates::new(&[&add, &flag]).unwrap();
+    let machine = GatesMachine::new(&[&add, &flag]).unwrap();
     let mut rows = machine.rows();
     rows.set(&[0], &[0, 1, 0, 1]);
     let spans = [[0, 0], [0, 1]];
-    let spans = spans.each_ref().map(|parameters| Span {
+    let spans = spans.each_ref().map(|parameters| PixelLanes {
         lanes: 2,
         parameters,
     });
@@ -224,7 +226,7 @@ fn a_gate_that_is_none_is_refused() {
     ] {
         let fine = circuit(vec![Gate::X(1)], 2);
         let circuit = circuit(vec![Gate::X(0), gate], 2);
-        let refused = Gates::new(&[&fine, &circuit]).unwrap_err();
+        let refused = GatesMachine::new(&[&fine, &circuit]).unwrap_err();
         assert_eq!(
             refused,
             InvalidGate {
@@ -237,7 +239,7 @@ fn a_gate_that_is_none_is_refused() {
 
 #[test]
 fn blocks_come_in_order() {
-    let machine = Gates::new(&[&circuit(vec![Gate::Cx(0, 1)], 2)]).unwrap();
+    let machine = GatesMachine::new(&[&circuit(vec![Gate::Cx(0, 1)], 2)]).unwrap();
     let sums = machine.blocks(9, |rows, block| {
         rows.clear();
         rows.set(&[0], &[block as u64]);
@@ -252,7 +254,7 @@ fn blocks_come_in_order() {
 #[test]
 fn rows_of_many_qubits_are_shorter() {
     let lanes = |qubits| {
-        let machine = Gates::new(&[&circuit(Vec::new(), qubits)]).unwrap();
+        let machine = GatesMachine::new(&[&circuit(Vec::new(), qubits)]).unwrap();
         assert_eq!(machine.rows().signs().len() * 64, machine.lanes());
         machine.lanes()
     };
@@ -262,7 +264,7 @@ fn rows_of_many_qubits_are_shorter() {
 #[test]
 fn gates_made_anew_run_on_what_fits_into_some_memory() {
     let at_once = |qubits| {
-        let machine = Gates::new(&[&circuit(Vec::new(), qubits)]).unwrap();
+        let machine = GatesMachine::new(&[&circuit(Vec::new(), qubits)]).unwrap();
         let machine = machine.for_many_rows(128 << 20);
         let rows = machine.rows_at_once(128 << 20);
         let bytes = (qubits as usize + 5) * machine.lanes() / 8;
@@ -273,7 +275,7 @@ fn gates_made_anew_run_on_what_fits_into_some_memory() {
     assert_eq!(at_once(600_000), (512, 3));
     assert_eq!(at_once(12_000_000), (256, 1));
     // Each of several rows runs all gates.
-    let machine = Gates::new(&[&circuit(Vec::new(), 3)]).unwrap();
+    let machine = GatesMachine::new(&[&circuit(Vec::new(), 3)]).unwrap();
     let mut rows = [machine.rows(), machine.rows()];
     for (value, rows) in rows.iter_mut().enumerate() {
         rows.set(&[0, 1], &[3 * value as u64]);
@@ -301,7 +303,7 @@ fn gates_made_anew_run_on_what_fits_into_some_memory() {
 /// rows.
 #[test]
 fn a_template_flips_the_machines_signs_and_reads_its_parameters() {
-    let machine = Gates::new(&[&circuit(Vec::new(), 9)]).unwrap();
+    let machine = GatesMachine::new(&[&circuit(Vec::new(), 9)]).unwrap();
     let short = machine.clone().for_many_rows(0);
     assert_eq!([machine.lanes(), short.lanes()], [2048, 256]);
     let load = |bit, target| Gate::Load {
@@ -321,7 +323,7 @@ fn a_template_flips_the_machines_signs_and_reads_its_parameters() {
     ];
     for machine in [machine, short] {
         let mut rows = [machine.rows()];
-        rows[0].set_parameters(&[Span {
+        rows[0].set_parameters(&[PixelLanes {
             lanes: 1,
             parameters: &[0b10, 0],
         }]);

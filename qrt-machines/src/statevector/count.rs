@@ -1,7 +1,7 @@
 //! Quantum counting's circuit, run on a machine.
 
 use super::{Sparse, StateVector, StateVectorError};
-use qrt_circuit::quantum::{Counting, PhaseOracle, QuantumGate, Window};
+use qrt_circuit::quantum::{CountingCircuit, PhaseOracle, QuantumGate, Window};
 
 /// Largest probability with which ancillas may be excited: rounding leaves a window's bond excited
 /// by up to this much.
@@ -18,16 +18,16 @@ pub enum Checks {
 
 /// Result of a run of the counting circuit: the distribution that it measures, and its resources.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Counted {
+pub struct CountingRun {
     /// `P(theta~)`, by outcome `y = 0 ..= T/2`.
     pub distribution: Vec<f64>,
     /// The qubits, gates and queries that the run took.
-    pub report: Report,
+    pub report: RunResources,
 }
 
 /// Resources that a run of the counting circuit took.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct RunResources {
     /// Number of qubits: those of the index, the ancillas and the phase register.
     pub qubits: u32,
     /// Number of qubits in superposition: those of the index and the phase register.
@@ -67,9 +67,18 @@ pub fn fold(outcomes: &[f64]) -> Vec<f64> {
 /// Errors of the machine; an ancilla that does not return to zero.
 pub fn count<M: StateVector>(
     machine: &mut M,
-    counting: &Counting<'_>,
+    counting: &CountingCircuit<'_>,
     checks: Checks,
-) -> Result<Counted, StateVectorError> {
+) -> Result<CountingRun, StateVectorError> {
+    run(machine, counting, checks, &|| false)
+}
+
+fn run<M: StateVector>(
+    machine: &mut M,
+    counting: &CountingCircuit<'_>,
+    checks: Checks,
+    cancelled: &dyn Fn() -> bool,
+) -> Result<CountingRun, StateVectorError> {
     let ancillas = counting.ancillas();
     let mut run = Run {
         machine,
@@ -80,6 +89,9 @@ pub fn count<M: StateVector>(
     counting.prepare(&mut |gate| run.gate(gate))?;
     for bit in 0..counting.phase_register().len() as u32 {
         for _ in 0..1_u64 << bit {
+            if cancelled() {
+                return Err(StateVectorError::Cancelled);
+            }
             if checks == Checks::EveryQuery {
                 run.check()?;
             }
@@ -94,9 +106,9 @@ pub fn count<M: StateVector>(
     let (gates, checks) = (run.gates, run.checks);
     let outcomes = machine.distribution(counting.phase_register())?;
     let ids = counting.iterate().oracle().superposed().len();
-    Ok(Counted {
+    Ok(CountingRun {
         distribution: fold(&outcomes),
-        report: Report {
+        report: RunResources {
             qubits: counting.qubits(),
             superposed: (ids + counting.phase_register().len()) as u32,
             gates,
@@ -161,10 +173,23 @@ pub fn counting_of(
     oracle: &PhaseOracle,
     phase_bits: u32,
     window: Window,
-) -> Result<Counted, StateVectorError> {
-    let counting = Counting::new(oracle, phase_bits, window)?;
+) -> Result<CountingRun, StateVectorError> {
+    counting_until(&CountingCircuit::new(oracle, phase_bits, window)?, &|| {
+        false
+    })
+}
+
+/// Runs a counting circuit on the sparse machine, with a check of all ancillas after every query. Before
+/// each query `cancelled` is asked whether to go on.
+///
+/// # Errors
+/// As [`counting_of`]; [`StateVectorError::Cancelled`] if `cancelled` returned true.
+pub fn counting_until(
+    counting: &CountingCircuit<'_>,
+    cancelled: &dyn Fn() -> bool,
+) -> Result<CountingRun, StateVectorError> {
     let mut machine = Sparse::new(counting.qubits());
-    let mut counted = count(&mut machine, &counting, Checks::EveryQuery)?;
+    let mut counted = run(&mut machine, counting, Checks::EveryQuery, cancelled)?;
     counted.report.most_states = Some(machine.most_states());
     counted.report.dropped = machine.dropped();
     Ok(counted)

@@ -49,6 +49,9 @@ pub enum StateVectorError {
         /// The most qubits of a register whose outcomes are listed.
         most: u32,
     },
+    /// The caller cancelled the run.
+    #[error("cancelled")]
+    Cancelled,
     /// An ancilla that is not zero when it must be: a defect of the circuit.
     #[error(
         "ancilla {qubit} is not returned to zero: with probability {probability:.3e} ancillas are \

@@ -19,7 +19,7 @@ mod sparse;
 #[cfg(test)]
 mod tests;
 
-pub use count::{Checks, Counted, Report, count, counting_of, fold};
+pub use count::{Checks, CountingRun, RunResources, count, counting_of, counting_until, fold};
 pub use dense::Dense;
 pub use error::{StateVectorError, filled};
 pub use sparse::Sparse;

@@ -1,6 +1,6 @@
 //! Compute and uncompute as straight-line code, with functions for repeated parts.
 
-use super::lines::{self, Around, Line};
+use super::lines::{self, Line};
 use super::names::Names;
 use super::repeats::Repeats;
 use qrt_circuit::{Argument, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
@@ -92,7 +92,8 @@ struct Coder<'a> {
     lent: HashSet<RegisterId>,
 }
 
-/// Writes the trait's implementation.
+/// Writes the trait's implementation. Names of its variables begin with `__` or end with a
+/// register's number, so that no constant around the macro has them.
 pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
     let (mut coder, sequence) = Coder::new(oracle, names);
     let told = Repeats::find(sequence, coder.statements.len(), REPEATED);
@@ -124,16 +125,16 @@ pub(super) fn write(out: &mut String, oracle: &Oracle, names: &Names) {
 
             #[inline(always)]
             fn within<M: Machine, T>(
-                m: &mut M,
-                id: &M::Register,
-                apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
+                __m: &mut M,
+                __id: &M::Register,
+                __apply: impl FnOnce(&mut M, Computed<'_, Self, M::Register>) -> T,
             ) -> T {{
         {compute}
-        let fields = &[{}];
-        let channels = [{}];
-        let applied = apply(m, Computed::new(fields, channels));
+        let __fields = &[{}];
+        let __channels = [{}];
+        let __applied = __apply(__m, Computed::new(__fields, __channels));
         {uncompute}
-        applied
+        __applied
         }}
         }}",
         fields.join(", "),
@@ -203,7 +204,7 @@ impl<'a> Coder<'a> {
         let code = self.block(part);
         let _ = writeln!(
             out,
-            "fn repeated_{number}<M: Machine>(m: &mut M, id: &M::Register{read}{taken}) -> ({made}) {{
+            "fn repeated_{number}<M: Machine>(__m: &mut M, __id: &M::Register{read}{taken}) -> ({made}) {{
                 {code}
                 ({})
             }}",
@@ -215,7 +216,7 @@ impl<'a> Coder<'a> {
 
     fn block(&self, symbols: &[usize]) -> String {
         let lines: Vec<Line> = symbols.iter().map(|&symbol| self.line(symbol)).collect();
-        lines::blocks(&lines, Around::Call, |_, _| true)
+        lines::blocks(&lines)
     }
 
     fn line(&self, symbol: usize) -> Line {
@@ -231,9 +232,9 @@ impl<'a> Coder<'a> {
                 let read = effect.read.iter().map(|&own| self.borrowed(own) + ", ");
                 let read: String = read.collect();
                 let [taken, made] = [&effect.taken, &effect.made].map(|all| self.tuple(all));
-                format!("let ({made}) = repeated_{number}(m, id, {read}{taken});")
+                format!("let ({made}) = repeated_{number}(__m, __id, {read}{taken});")
             }
-            Some(Statement::Block(block)) => format!("m.block(BlockId({}));", block.0),
+            Some(Statement::Block(block)) => format!("__m.block(BlockId({}));", block.0),
             Some(Statement::Compute(op)) => {
                 let op = self.op(*op);
                 let targets = self.targets(op);
@@ -243,10 +244,10 @@ impl<'a> Coder<'a> {
                     }
                     (_, all) => all.concat(),
                 };
-                format!("let {targets} = m.{};", self.call(op))
+                format!("let {targets} = __m.{};", self.call(op))
             }
             Some(Statement::Undo(op)) => {
-                format!("m.undo([{}]);", self.targets(self.op(*op)).join(", "))
+                format!("__m.undo([{}]);", self.targets(self.op(*op)).join(", "))
             }
             Some(Statement::Apply) => String::new(),
         };
@@ -267,7 +268,7 @@ impl<'a> Coder<'a> {
 
     fn borrowed(&self, register: RegisterId) -> String {
         if register == self.id {
-            return "id".to_owned();
+            return "__id".to_owned();
         }
         if self.lent.contains(&register) {
             return self.names.variable(register).to_owned();
@@ -342,7 +343,7 @@ impl<'a> Coder<'a> {
                 Argument::Bit(bit) => self.bit(*bit),
                 Argument::Operand(operand) => self.operand(*operand),
                 Argument::Constant(constant) => format!("{constant:?}"),
-                Argument::Bits(_) | Argument::Condition => String::new(),
+                Argument::Bits(_) | Argument::Condition(_) => String::new(),
             });
             arguments.extend(read);
         }

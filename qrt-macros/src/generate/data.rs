@@ -1,7 +1,7 @@
 //! Registers, blocks, tables and classical parameters as constants.
 
 use qrt_circuit::{Bit, Op, Operand, Style, Type, Word};
-use qrt_core::compile::Place;
+use qrt_core::compile::ValuePlace;
 use qrt_core::oracle::Oracle;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -91,8 +91,8 @@ fn tables(out: &mut String, oracle: &Oracle) {
         {
             let _ = writeln!(
                 out,
-                "static M{}: ::std::sync::LazyLock<::std::sync::Arc<Multiples>> = \
-                 ::std::sync::LazyLock::new(|| Multiples::new(&{:?})\
+                "static M{}: ::qrt::__std::sync::LazyLock<::qrt::__std::sync::Arc<Multiples>> = \
+                 ::qrt::__std::sync::LazyLock::new(|| Multiples::new(&{:?})\
                  .expect(\"the constants were in bounds\").into());",
                 targets[0].0,
                 products.products(),
@@ -120,24 +120,25 @@ fn operand(operand: Operand) -> String {
     }
 }
 
-fn place(place: Place) -> String {
+fn place(place: ValuePlace) -> String {
     match place {
-        Place::Number {
+        ValuePlace::Number {
             word: bits,
             negated,
             offset,
         } => format!(
-            "Place::Number {{ word: {}, negated: {negated}, offset: {offset:?} }}",
+            "ValuePlace::Number {{ word: {}, negated: {negated}, offset: {offset:?} }}",
             word(bits)
         ),
-        Place::Truth(Bit {
+        ValuePlace::Truth(Bit {
             register,
             index,
             inverted,
         }) => format!(
-            "Place::Truth(Bit {{ register: {register:?}, index: {index}, inverted: {inverted} }})"
+            "ValuePlace::Truth(Bit {{ register: {register:?}, index: {index}, \
+             inverted: {inverted} }})"
         ),
-        Place::Index(bits) => format!("Place::Index({})", word(bits)),
+        ValuePlace::Index(bits) => format!("ValuePlace::Index({})", word(bits)),
     }
 }
 

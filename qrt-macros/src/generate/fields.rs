@@ -1,7 +1,7 @@
 //! The layout: the places of a path's numbers, ray by ray, with their formats as types.
 
 use qrt_circuit::{Bit, Word};
-use qrt_core::compile::{NamedPlace, Place};
+use qrt_core::compile::{NamedPlace, ValuePlace};
 use qrt_core::oracle::Oracle;
 use qrt_core::tracer::Quantity;
 use std::fmt::Write as _;
@@ -19,13 +19,7 @@ struct Named {
 }
 
 /// Writes a struct for each ray, and one for all of them; returns the value of the latter.
-pub(super) fn write(
-    out: &mut String,
-    scene: &str,
-    public: &str,
-    conditions: &str,
-    oracle: &Oracle,
-) -> String {
+pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle) -> String {
     let depths = oracle.points.depths();
     let mut fields = String::new();
     let mut values = String::new();
@@ -37,9 +31,10 @@ pub(super) fn write(
         };
         let _ = writeln!(
             out,
-            "{conditions}
-            /// Numbers of {what} of [`{scene}`] that are in registers.
-            #[derive(Clone, Copy, Debug)]
+            "/// Numbers of {what} of [`{scene}`] that are in registers.
+            #[::core::prelude::v1::derive(
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
+            )]
             #[allow(dead_code, reason = \"an author reads some of them only\")]
             {public} struct {scene}Ray{depth} {{"
         );
@@ -53,9 +48,10 @@ pub(super) fn write(
     }
     let _ = writeln!(
         out,
-        "{conditions}
-        /// Registers of the numbers of a path of [`{scene}`].
-        #[derive(Clone, Copy, Debug)]
+        "/// Registers of the numbers of a path of [`{scene}`].
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
+        )]
         #[allow(dead_code, reason = \"an author reads some of them only\")]
         {public} struct {scene}Layout {{ {fields} }}"
     );
@@ -85,25 +81,25 @@ fn quantities(oracle: &Oracle, depth: usize) -> Vec<Named> {
 /// Returns a number's format and its field.
 fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
     let (word, negated, offset) = match named.place {
-        Place::Number {
+        ValuePlace::Number {
             word,
             negated,
             offset,
         } => (word, negated, offset),
-        Place::Truth(Bit {
+        ValuePlace::Truth(Bit {
             register,
             index,
             inverted,
         }) => (Word::unsigned(register, index, 1), inverted, [0.0; 3]),
-        Place::Index(word) => (word, false, [0.0; 3]),
+        ValuePlace::Index(word) => (word, false, [0.0; 3]),
     };
     let fraction = oracle.fraction;
     let above = i64::from(word.bits()) - i64::from(fraction);
     let ty = match (named.place, word.signed) {
-        (Place::Truth(_), _) => "Bool".to_owned(),
-        (Place::Index(_), _) => format!("UInt<{}>", word.bits()),
-        (Place::Number { .. }, true) => format!("Fixed<{above}, {fraction}>"),
-        (Place::Number { .. }, false) => format!("UFixed<{above}, {fraction}>"),
+        (ValuePlace::Truth(_), _) => "Bool".to_owned(),
+        (ValuePlace::Index(_), _) => format!("UInt<{}>", word.bits()),
+        (ValuePlace::Number { .. }, true) => format!("Fixed<{above}, {fraction}>"),
+        (ValuePlace::Number { .. }, false) => format!("UFixed<{above}, {fraction}>"),
     };
     let ty = format!("::qrt::circuit::format::{ty}");
     let sign = if word.signed { "signed" } else { "unsigned" };
@@ -133,14 +129,15 @@ fn component(oracle: &Oracle, place: usize, named: &NamedPlace) -> Component {
 /// Returns the documentation of a quantity.
 fn meaning(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::Origin => "Where it starts, in the scene's frame as the circuit scales it.",
-        Quantity::Direction => "Where it goes; the camera's are of no particular length.",
-        Quantity::Throughput => "The fraction of what it finds that reaches the camera.",
-        Quantity::Found => "Whether it meets a surface, on a path that has not ended.",
-        Quantity::Distance => "How far away that is, in lengths of its direction.",
-        Quantity::Face => "The face it meets, by number.",
-        Quantity::Lamp => "The cell of the unit square that samples the point on a lamp.",
-        Quantity::Sample => "The cell of the unit square that it samples.",
+        Quantity::Origin => "Start of the ray, in the scene's frame as the circuit scales it.",
+        Quantity::Direction => "Direction of the ray; the camera's rays have no particular length.",
+        Quantity::Throughput => "Fraction of the light at the ray's end that reaches the camera.",
+        Quantity::Found => "True if the ray meets a surface, on a path that has not ended.",
+        Quantity::Distance => "Distance to the surface, in lengths of the direction.",
+        Quantity::Face => "Number of the face that the ray meets.",
+        Quantity::Lens => "Cell of the unit square that samples the point on the lens.",
+        Quantity::Lamp => "Cell of the unit square that samples the point on a lamp.",
+        Quantity::Sample => "Cell of the unit square that samples the direction.",
     }
 }
 

@@ -9,18 +9,18 @@ mod data;
 mod fields;
 mod lines;
 mod names;
-mod native;
 mod paths;
 mod repeats;
-mod stub;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use stub::stub;
+pub(crate) use paths::about;
 
 use names::Names;
 use proc_macro2::TokenStream;
-use qrt_core::oracle::{CallCost, Oracle, OracleCost, check_budget, oracle_costs_knowing};
+use qrt_core::oracle::{CallCost, Oracle, Oracles, check_budget};
+use qrt_core::tracer::PixelClass;
+use qrt_scene::Scene;
 use qrt_scene::syntax::Problem;
 use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
@@ -44,6 +44,18 @@ pub(crate) fn scene(
     Ok(parsed_text(&text))
 }
 
+/// Returns the constant data of a scene: see [`qrt_scene::front::Item`].
+pub(crate) fn items(scene: &Scene) -> TokenStream {
+    // The items' debug form is Rust code.
+    let text = format!(
+        "{{ #[allow(unused_imports)]
+            use ::qrt::scene::front::Item::{{Bool, List, Map, Number, Text}};
+            &{:?} }}",
+        scene.encode().items()
+    );
+    parsed_text(&text)
+}
+
 /// The tokens of text that this module wrote.
 fn parsed_text(text: &str) -> TokenStream {
     // Tests read all kinds of this text; text that they miss must not vanish.
@@ -63,28 +75,42 @@ fn text(
     conditions: &str,
     (labels, valid): (&[Option<String>], &ValidScene),
 ) -> Result<String, Vec<Problem>> {
-    let recorded = Oracle::rgb_and_costs(valid);
-    let (oracle, costs) = recorded.map_err(|error| vec![error.problem()])?;
-    keep_budget(valid, &costs)?;
-    let [red, green, blue] = costs;
+    let oracles = Oracles::new(valid);
+    // Of pixels that may see a lamp, and so for all pixels.
+    let class = PixelClass::default();
+    let recorded = oracles.with_costs(class);
+    let (oracle, [red, green, blue]) = recorded.map_err(|error| vec![error.problem()])?;
+    keep_budget(&oracles)?;
     let most = red.dearer(green).dearer(blue);
-    let mut out = format!("{conditions}\n");
+    // The names of the types beside the scene's are no names of the author's module.
+    let mut out = format!("{conditions}\nconst _: () = {{\n");
     out.push_str(&figures(scene, public, valid, &oracle, most.call));
-    paths::write(&mut out, scene, public, conditions, valid);
-    paths::numbers(&mut out, scene, public, conditions, (labels, valid));
+    paths::write(&mut out, scene, public, valid);
+    paths::numbers(&mut out, scene, public, (labels, valid));
     if oracle.program.ops.len() <= MOST {
         let names = Names::new(&oracle);
-        let layout = fields::write(&mut out, scene, public, conditions, &oracle);
+        let layout = fields::write(&mut out, scene, public, &oracle);
         let _ = writeln!(
             out,
             "
-            {conditions}
             #[allow(warnings, clippy::all, clippy::pedantic, reason = \"written by `qrt!`\")]
             const _: () = {{
             // A name that nothing of what is imported below has.
             type __Scene = {scene};
             const _: () = {{
-            use ::qrt::core::compile::{{NamedPlace, PixelWord, Place}};
+            // The author's own items may have any of these names.
+            use ::core::clone::Clone;
+            use ::core::convert::{{From, Into}};
+            use ::core::default::Default;
+            use ::core::iter::{{IntoIterator, Iterator}};
+            use ::core::marker::{{Copy, Send, Sized, Sync}};
+            use ::core::ops::{{Drop, Fn, FnMut, FnOnce}};
+            use ::core::option::Option::{{self, None, Some}};
+            use ::core::primitive::{{
+                bool, f32, f64, i8, i16, i32, i64, i128, str, u8, u16, u32, u64, u128, usize,
+            }};
+            use ::core::result::Result::{{self, Err, Ok}};
+            use ::qrt::core::compile::{{NamedPlace, PixelWord, ValuePlace}};
             use ::qrt::scene::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
             use ::qrt::circuit::{{
                 Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag,
@@ -94,10 +120,7 @@ fn text(
             use ::qrt::core::oracle::compiled::{{
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             }};
-            use ::qrt::core::tracer::{{Named, Quantity}};
-            use ::qrt::runtime::path_machines::native::{{
-                Integers, NativeOracle, Truths, Vectors, block, word,
-            }};"
+            use ::qrt::core::tracer::{{Named, Quantity}};"
         );
         let _ = writeln!(
             out,
@@ -108,20 +131,19 @@ fn text(
         );
         data::write(&mut out, &oracle);
         code::write(&mut out, &oracle, &names);
-        native::write(&mut out, &oracle, &names);
         out.push_str("};\n};\n");
     }
+    out.push_str("};\n");
     Ok(out)
 }
 
-/// Reports the oracles of the scene that exceed its budget. Oracles whose costs are not `known`, of
-/// pixels of another class, are compiled for that.
-fn keep_budget(valid: &ValidScene, known: &[OracleCost]) -> Result<(), Vec<Problem>> {
-    if valid.scene().budget.is_none() {
+/// Reports the oracles of the scene that exceed its budget.
+fn keep_budget(oracles: &Oracles<'_>) -> Result<(), Vec<Problem>> {
+    if oracles.scene().scene().budget.is_none() {
         return Ok(());
     }
-    let costs = oracle_costs_knowing(valid, known);
-    check_budget(valid, &costs.map_err(|error| vec![error.problem()])?)
+    let costs = oracles.costs().map_err(|error| vec![error.problem()])?;
+    check_budget(oracles.scene(), &costs)
 }
 
 /// Returns the constants of the circuit's properties and costs.
@@ -148,23 +170,23 @@ fn figures(
         impl {scene} {{
             /// The most qubits in use at any time during a call of the oracle of the channel that
             /// has the most Toffolis.
-            {public} const QUBITS: u64 = {qubits};
+            {public} const QUBITS: ::core::primitive::u64 = {qubits};
             /// Toffoli gates of a call of the oracle of the channel that has the most.
-            {public} const TOFFOLI: u64 = {toffoli};
+            {public} const TOFFOLI: ::core::primitive::u64 = {toffoli};
             /// A pixel has `2^PATH_BITS` paths.
-            {public} const PATH_BITS: u32 = {path_bits};
+            {public} const PATH_BITS: ::core::primitive::u32 = {path_bits};
             /// Qubits of the comparator.
-            {public} const COMPARATOR_BITS: u32 = {comparator_bits};
+            {public} const COMPARATOR_BITS: ::core::primitive::u32 = {comparator_bits};
             /// Bits after the point of every number.
-            {public} const FRACTION_BITS: u32 = {fraction};
+            {public} const FRACTION_BITS: ::core::primitive::u32 = {fraction};
             /// Rays on a path.
-            {public} const DEPTH: usize = {depth};
+            {public} const DEPTH: ::core::primitive::usize = {depth};
             /// Columns and rows of the film.
-            {public} const FILM: [u32; 2] = {film:?};
+            {public} const FILM: [::core::primitive::u32; 2] = {film:?};
             /// By channel (red, green, blue): the proven bound on a path's colour, in radiance.
-            {public} const SCALE: [f64; 3] = {scale:?};
+            {public} const SCALE: [::core::primitive::f64; 3] = {scale:?};
             /// Operations from a path's id to its three colours.
-            {public} const OPERATIONS: usize = {operations};
+            {public} const OPERATIONS: ::core::primitive::usize = {operations};
         }}
 "
     )

@@ -2,7 +2,7 @@
 //! the vocabulary of predicates.
 
 use super::names::identifiers;
-use qrt_core::oracle::paths::{PathFormat, PathFormats, PathNumber, RayNumber};
+use qrt_core::oracle::paths::{PathFormats, PathNumber, RayNumber};
 use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
 
@@ -18,30 +18,14 @@ const PATHS: &str = "::qrt::core::oracle::paths";
 
 /// Writes a struct of a path's registers and its construction; nothing for a scene that is too
 /// large.
-pub(super) fn write(
-    out: &mut String,
-    scene: &str,
-    public: &str,
-    conditions: &str,
-    valid: &ValidScene,
-) {
+pub(super) fn write(out: &mut String, scene: &str, public: &str, valid: &ValidScene) {
     let Some(formats) = PathFormats::new(valid) else {
         return;
     };
-    let text = |format: PathFormat| {
-        let name = format.ty.name(format.width);
-        format!("::qrt::circuit::format::{name}")
-    };
-    let of = |number| text(formats.format(PathNumber::Ray(0, number)));
-    let colour = text(formats.format(PathNumber::Colour(0)));
-    let [point, unit, distance, face, material] = [
-        RayNumber::Origin(0),
-        RayNumber::Direction(0),
-        RayNumber::Distance,
-        RayNumber::Face,
-        RayNumber::Material,
-    ]
-    .map(of);
+    let text = |number| format!("::qrt::circuit::format::{}", name(&formats, number));
+    let colour = text(PathNumber::Colour(0));
+    let [point, unit, distance, face, material] =
+        KINDS.map(|number| text(PathNumber::Ray(0, number)));
     let mut fields = String::new();
     let mut made = String::new();
     for ray in 0..formats.rays {
@@ -57,16 +41,14 @@ pub(super) fn write(
     }
     let _ = writeln!(
         out,
-        "{conditions}
-        /// The registers of a ray of [`{scene}`]: points and distances in the scene's units, unit
+        "/// The registers of a ray of [`{scene}`]: points and distances in the scene's units, unit
         /// vectors, and the numbers of faces and materials from 1 on.
         #[allow(dead_code, reason = \"an author reads some of them only\")]
         {public} type {scene}PathRay =
             {PATHS}::RayRegisters<{point}, {unit}, {distance}, {face}, {material}>;
 
-        {conditions}
         /// The registers of a path of [`{scene}`], which predicates read.
-        #[derive(Debug)]
+        #[::core::prelude::v1::derive(::core::fmt::Debug)]
         #[allow(dead_code, reason = \"an author reads some of them only\")]
         {public} struct {scene}Path {{
             {fields}
@@ -74,7 +56,6 @@ pub(super) fn write(
             pub colour: {PATHS}::ColourRegisters<{colour}>,
         }}
 
-        {conditions}
         impl {PATHS}::PathScene for {scene} {{
             type Path = {scene}Path;
 
@@ -89,12 +70,54 @@ pub(super) fn write(
     );
 }
 
+/// Returns the documentation of a path's registers as predicates read them, with their formats.
+/// Empty for a scene that is too large.
+pub(crate) fn about(valid: &ValidScene) -> String {
+    let Some(formats) = PathFormats::new(valid) else {
+        return String::new();
+    };
+    let [point, unit, distance, face, material] =
+        KINDS.map(|number| name(&formats, PathNumber::Ray(0, number)));
+    let colour = name(&formats, PathNumber::Colour(0));
+    let rays = match formats.rays {
+        1 => "`path.ray0`".to_owned(),
+        rays => format!("`path.ray0` to `path.ray{}`", rays - 1),
+    };
+    format!(
+        "The registers of a path that predicates read, for {rays}:\n\n\
+         | register | format |\n|---|---|\n\
+         | `path.ray0.origin.x`, `.y`, `.z` | `{point}` |\n\
+         | `path.ray0.direction.x`, `.y`, `.z` | `{unit}` |\n\
+         | `path.ray0.found` | `Bool` |\n\
+         | `path.ray0.distance` | `{distance}` |\n\
+         | `path.ray0.face` | `{face}` |\n\
+         | `path.ray0.material` | `{material}` |\n\
+         | `path.ray0.front` | `Bool` |\n\
+         | `path.ray0.normal.x`, `.y`, `.z` | `{unit}` |\n\
+         | `path.colour.r`, `.g`, `.b` | `{colour}` |"
+    )
+}
+
+/// One number of a ray for each format of its numbers.
+const KINDS: [RayNumber; 5] = [
+    RayNumber::Origin(0),
+    RayNumber::Direction(0),
+    RayNumber::Distance,
+    RayNumber::Face,
+    RayNumber::Material,
+];
+
+/// Returns the format of a number as Rust writes it.
+fn name(formats: &PathFormats, number: PathNumber) -> String {
+    let format = formats.format(number);
+    format.ty.name(format.width)
+}
+
 /// Writes the numbers of materials and of labelled faces as constants.
 pub(super) fn numbers(
     out: &mut String,
     scene: &str,
     public: &str,
-    conditions: &str,
     (labels, valid): (&[Option<String>], &ValidScene),
 ) {
     let surfaces = valid.surfaces().iter().map(|surface| surface.name.clone());
@@ -114,20 +137,16 @@ pub(super) fn numbers(
     faces.retain(|(_, faces)| faces.len() <= MOST_FACES);
     table(
         out,
-        (scene, public, conditions),
+        (scene, public),
         ("Materials", "MATERIALS", "material", &materials),
     );
-    table(
-        out,
-        (scene, public, conditions),
-        ("Faces", "FACES", "face", &faces),
-    );
+    table(out, (scene, public), ("Faces", "FACES", "face", &faces));
 }
 
 /// Writes a struct with a field for each name, and a constant of that struct.
 fn table(
     out: &mut String,
-    (scene, public, conditions): (&str, &str, &str),
+    (scene, public): (&str, &str),
     (plural, constant, noun, named): (&str, &str, &str, &[Named]),
 ) {
     let names = identifiers(named.iter().map(|(name, _)| name.as_str()));
@@ -136,22 +155,25 @@ fn table(
     for (field, (name, numbers)) in names.iter().zip(named) {
         let name = name.replace('`', "'");
         let (ty, value) = match &numbers[..] {
-            [one] => ("u32".to_owned(), one.to_string()),
-            several => ("&'static [u32]".to_owned(), format!("&{several:?}")),
+            [one] => ("::core::primitive::u32".to_owned(), one.to_string()),
+            several => (
+                "&'static [::core::primitive::u32]".to_owned(),
+                format!("&{several:?}"),
+            ),
         };
         let _ = writeln!(fields, "/// `{name}`\npub {field}: {ty},");
         let _ = write!(values, "{field}: {value}, ");
     }
     let _ = writeln!(
         out,
-        "{conditions}
-        /// The number of each {noun} of [`{scene}`] that has a name, by name; all of them where
+        "/// The number of each {noun} of [`{scene}`] that has a name, by name; all of them where
         /// several have one.
-        #[derive(Clone, Copy, Debug)]
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
+        )]
         #[allow(dead_code, non_snake_case, reason = \"an author's names, of which some are read\")]
         {public} struct {scene}{plural} {{ {fields} }}
 
-        {conditions}
         #[allow(dead_code, reason = \"an author asks for some of them only\")]
         impl {scene} {{
             /// The number that each {noun} with a name has in the registers of a path.

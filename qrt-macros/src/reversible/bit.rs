@@ -1,7 +1,7 @@
 //! Expressions that are true or false.
 
 use super::dim::Linear;
-use super::ir::{Bit, Kind, Number, NumberKind, Place, Register};
+use super::ir::{Bit, Entry, Kind, Number, NumberKind, Place, Register};
 use super::scope::Scope;
 use qrt_scene::syntax::codes;
 use std::rc::Rc;
@@ -14,7 +14,8 @@ impl Scope {
             Expr::Paren(inner) => self.is_bit(&inner.expr),
             Expr::Group(inner) => self.is_bit(&inner.expr),
             Expr::Lit(literal) => matches!(literal.lit, Lit::Bool(_)),
-            Expr::Unary(unary) => matches!(unary.op, UnOp::Not(_)),
+            Expr::Unary(unary) => matches!(unary.op, UnOp::Not(_)) && self.is_bit(&unary.expr),
+            Expr::Index(index) if self.table_path(index).is_some() => false,
             Expr::Index(index) => match &*index.expr {
                 Expr::Path(path) if self.array(path).is_some() => {
                     self.array(path) == Some(Kind::Bool)
@@ -178,6 +179,11 @@ impl Number {
     pub(super) fn reads(&self, visit: &mut impl FnMut(Place)) {
         match &self.kind {
             NumberKind::Constant(_) | NumberKind::Given(_) => {}
+            NumberKind::Entry(_, entry) => {
+                if let Entry::Of(place, _) = &**entry {
+                    visit(place.clone());
+                }
+            }
             NumberKind::Word(register, first) => {
                 let width = self.size.width.parts().first().cloned();
                 let whole = first.is_zero() && width.as_ref() == Some(&register.format.width);

@@ -123,7 +123,7 @@ impl Scope {
         let PathArguments::AngleBracketed(given) = &last.arguments else {
             return Some(());
         };
-        let mut known = self.constants.clone();
+        let mut known = self.constants.to_vec();
         known.extend(self.loops.iter().map(|(variable, _)| variable.clone()));
         for given in &given.args {
             let alone = match given {

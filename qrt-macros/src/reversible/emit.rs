@@ -3,22 +3,27 @@
 mod arguments;
 mod formats;
 
+use super::constants::Constants;
 use super::ir::{
     Array, Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K,
     Term, Update, inverse,
 };
 use super::source::as_written;
 use super::value::{Temporaries, own};
+use crate::surroundings;
 use arguments::{from_array, handed};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
+use std::rc::Rc;
 use syn::{ExprPath, Ident, PathArguments};
 
 /// Returns all Rust that a routine expands to.
 ///
 /// The function itself contains both directions, so that other functions call it in either
-/// direction by its own name. Its inverse and its program each repeat one direction, and name no
-/// other item, since a macro does not see whether they stand in a module or in an `impl`.
+/// direction by its own name. Its inverse and its program each repeat one direction. If the
+/// function calls others, they call it instead, so that the compiler reports an error of a call
+/// once. That takes the function's path, which depends on the code around it: see
+/// [`surroundings::path`].
 pub(super) fn routine(routine: &Routine) -> TokenStream {
     let demands = routine.demands.iter().map(|demand| {
         let (condition, message) = (&demand.condition, &demand.message);
@@ -27,20 +32,25 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
     });
     let demands: TokenStream = demands.collect();
     let formats = formats::declared(routine);
+    let tables: TokenStream = routine
+        .tables
+        .iter()
+        .map(|table| table.declared())
+        .collect();
     let agree = formats::agree(&routine.signature);
     let constants = &routine.signature.constants;
     let frame = calls(&routine.body).then(|| frame(&routine.signature.name));
-    let directions = [routine.body.clone(), inverse(&routine.body)];
-    let body = |host: &TokenStream, code: &dyn Fn([TokenStream; 2]) -> TokenStream| {
-        let [forward, backward] = [0, 1].map(|way| {
-            let mut emitter = Emitter {
-                temporaries: 0,
-                host: host.clone(),
-                constants: constants.clone(),
-            };
-            emitter.block(&directions[way])
-        });
-        let code = code([forward, backward]);
+    let beside = frame.as_ref().and_then(|_| beside(&routine.signature));
+    let emitted = |host: &TokenStream, statements: &[Statement], is_undone: bool| {
+        let mut emitter = Emitter {
+            temporaries: 0,
+            host: host.clone(),
+            is_undone,
+            constants: constants.clone(),
+        };
+        emitter.block(statements)
+    };
+    let body = |host: &TokenStream, code: TokenStream| {
         let used = uses(&code).then(|| {
             quote!(
                 use ::qrt::circuit as __qrt;
@@ -50,42 +60,77 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
             quote! {
                 #frame
                 const {
-                    let running = <__Frame<#host> as __qrt::Frame>::RUNNING;
-                    ::core::assert!(!running.repeats(), #message);
+                    let __running = <__Frame<#host> as __qrt::CallFrame>::RUNNING;
+                    ::core::assert!(!__running.repeats(), #message);
                 }
             }
         });
-        quote!(#used #formats #demands #ends #code)
+        quote!(#used #formats #tables #demands #ends #code)
     };
-    let kind = machine_name(&routine.signature.constants);
+    let kind = &routine.signature.machine;
     let kind = quote!(#kind);
     let (host, machine) = (own("host"), own("machine"));
-    let both = body(&kind, &|[forward, backward]| {
-        quote! {
+    let undone = inverse(&routine.body);
+    let both = {
+        let forward = emitted(&kind, &routine.body, false);
+        let backward = emitted(&kind, &undone, true);
+        let code = quote! {
             #agree
-            let #machine = #host.machine();
+            let #machine = ::qrt::circuit::Host::machine(#host);
             if #kind::UNDONE { #backward } else { #forward }
-        }
-    });
+        };
+        body(&kind, code)
+    };
     let name = &routine.signature.name;
     let renamed =
         format!("QRT0812: `{name}_inverse` has another name here, by which it cannot be undone");
-    let backward = body(&kind, &|[_, backward]| {
-        quote! {
-            const { ::core::assert!(!#kind::UNDONE, #renamed) };
+    let renamed = quote!(const { ::core::assert!(!#kind::UNDONE, #renamed) };);
+    let registers = routine
+        .signature
+        .parameters
+        .iter()
+        .map(|register| &register.name);
+    let registers = quote!(#(#registers),*);
+    if let Some(function) = beside {
+        let backward = quote! {
+            #renamed
+            #function(&mut ::qrt::circuit::Undone(#host), #registers);
+        };
+        let forward = quote!(#formats #function(#host, #registers););
+        return functions(&routine.signature, &both, &backward, &forward);
+    }
+    let backward = {
+        let code = emitted(&kind, &undone, false);
+        let code = quote! {
+            #renamed
             #agree
-            let #machine = #host.machine();
-            #backward
-        }
-    });
-    let forward = body(&quote!(::qrt::circuit::Recorder), &|[forward, _]| {
-        quote! {
-            use ::qrt::circuit::Machine as _;
+            let #machine = ::qrt::circuit::Host::machine(#host);
+            #code
+        };
+        body(&kind, code)
+    };
+    let forward = {
+        let recorder = quote!(::qrt::circuit::Recorder);
+        let code = emitted(&recorder, &routine.body, false);
+        let code = quote! {
             let #machine = #host;
-            #forward
-        }
-    });
+            #code
+        };
+        body(&recorder, code)
+    };
     functions(&routine.signature, &both, &backward, &forward)
+}
+
+/// Returns the function, as functions beside it call it; `None` if its path is not known, or if one
+/// of its parameters hides its name.
+fn beside(signature: &Signature) -> Option<TokenStream> {
+    let Signature { name, own, .. } = signature;
+    let hides = |parameter: &Rc<Register>| parameter.name == *name;
+    if signature.in_trait || signature.parameters.iter().any(hides) {
+        return None;
+    }
+    let path = surroundings::path(name)?;
+    Some(quote!(#path::<#(#own,)* _>))
 }
 
 /// Returns the frame by which its callees know the function, and the message if they call it.
@@ -98,12 +143,13 @@ fn frame(name: &Ident) -> (TokenStream, String) {
     let frame = quote! {
         #[allow(dead_code, reason = "it is a type, and never a value")]
         struct __Frame<H>(::core::marker::PhantomData<H>);
-        impl<H: __qrt::Host> __qrt::Frame for __Frame<H> {
+        impl<H: __qrt::Host> __qrt::CallFrame for __Frame<H> {
             const RUNNING: &'static __qrt::Running = &__qrt::Running {
                 function: ::core::concat!(::core::module_path!(), "::", #text),
                 place: [::core::line!(), ::core::column!()],
                 from: H::RUNNING,
             };
+            const UNDONE: ::core::primitive::bool = H::UNDONE;
         }
     };
     (frame, message)
@@ -113,7 +159,7 @@ fn frame(name: &Ident) -> (TokenStream, String) {
 fn calls(statements: &[Statement]) -> bool {
     statements.iter().any(|statement| match &statement.kind {
         K::Call { .. } => true,
-        K::Update(..) | K::Swap(..) => false,
+        K::Update(..) | K::Swap(..) | K::Zero(_) => false,
         K::If(_, a, b) | K::Within(a, b) => calls(a) || calls(b),
         K::For { body, .. } | K::Scratch(_, body) | K::Block(body) => calls(body),
     })
@@ -165,6 +211,7 @@ fn functions(
         name,
         in_trait,
         own: own_constants,
+        machine: kind,
         constants,
         parameters,
         ..
@@ -175,7 +222,6 @@ fn functions(
         .iter()
         .filter(|attribute| !attribute.path().is_ident("doc"));
     let other: Vec<_> = other.collect();
-    let kind = machine_name(constants);
     let (host, recorder) = (own("host"), own("recorder"));
     let reference = |parameter: &Register| reference(parameter.mutable);
     let named = parameters.iter().map(|parameter| {
@@ -204,7 +250,8 @@ fn functions(
     let inverse_doc = format!(" The inverse of [`{name}`]: undoes what it has done.");
     let program_doc =
         format!(" [`{name}`] as a program, whose inputs are its registers in their order.");
-    let some = (!own_constants.is_empty()).then(|| quote!(<#(const #own_constants: u32),*>));
+    let declared = own_constants.declared();
+    let some = (!own_constants.is_empty()).then(|| quote!(<#(#declared),*>));
     // In a trait, the trait's own attributes apply.
     let must_use = (!in_trait).then(|| quote!(#[must_use]));
     let style = own("style");
@@ -228,7 +275,10 @@ fn functions(
     quote! {
         #(#attributes)*
         #many
-        #visibility fn #name<#(const #own_constants: u32,)* #kind: ::qrt::circuit::Host>(
+        #visibility fn #name<
+            #(#declared,)*
+            #kind: ::qrt::circuit::Host,
+        >(
             #host: &mut #kind,
             #(#named),*
         ) {
@@ -239,7 +289,10 @@ fn functions(
         #(#other)*
         #many
         #[allow(dead_code, reason = "not every author needs it")]
-        #visibility fn #inverse_name<#(const #own_constants: u32,)* #kind: ::qrt::circuit::Host>(
+        #visibility fn #inverse_name<
+            #(#declared,)*
+            #kind: ::qrt::circuit::Host,
+        >(
             #host: &mut #kind,
             #(#named),*
         ) {
@@ -260,13 +313,6 @@ fn functions(
             #recorder.finish()
         }
     }
-}
-
-/// Returns the name of the machine's type, which is not a constant's.
-fn machine_name(constants: &[Ident]) -> Ident {
-    let names = ["M", "Machine", "AnyMachine"].map(|name| format_ident!("{name}"));
-    let free = names.into_iter().find(|name| !constants.contains(name));
-    free.unwrap_or_else(|| format_ident!("TheMachine"))
 }
 
 /// Returns the function that a call names, or its inverse. Their names differ by the ending
@@ -293,8 +339,10 @@ struct Emitter {
     temporaries: usize,
     /// The type of the host that the function runs on.
     host: TokenStream,
+    /// True if the host undoes the function where these statements run.
+    is_undone: bool,
     /// The constants that the function is generic over.
-    constants: Vec<Ident>,
+    constants: Constants,
 }
 
 impl Emitter {
@@ -316,11 +364,18 @@ impl Emitter {
                 if a.name == b.name {
                     let (both, names) = from_array(&a.name, &[a, b]);
                     let (a, b) = (&names[0], &names[1]);
-                    let swap = quote!(#machine.swap(#a.register_mut(), #b.register_mut(), None););
+                    let swap = swapped(&quote!(#a), &quote!(#b));
                     return quote!({ #both #swap });
                 }
-                let (a, b) = (a.tokens(), b.tokens());
-                quote!(#machine.swap(#a.register_mut(), #b.register_mut(), None);)
+                swapped(&a.tokens(), &b.tokens())
+            }
+            // Freeing a register checks it.
+            K::Zero(register) => {
+                let (name, text) = (&register.name, shown(&register.name));
+                quote! {
+                    #name.free(#machine);
+                    #name = __qrt::format::Reg::zero(#machine, #text);
+                }
             }
             K::Call {
                 path,
@@ -336,6 +391,8 @@ impl Emitter {
                 let register_count = arguments.len();
                 let (taken, arguments) = handed(arguments);
                 let host = &self.host;
+                // The same text in both directions: the compiler shows equal errors once.
+                let inverse = *inverse != self.is_undone;
                 // Errors about the arguments underline the function.
                 let mut arguments = Group::new(Delimiter::Parenthesis, quote!(#(#arguments,)*));
                 let name = function.path.segments.last().map(|last| last.ident.span());
@@ -370,7 +427,7 @@ impl Emitter {
                 let (first, end) = (first.tokens(), end.tokens());
                 let body = self.block(body);
                 let range = if *reversed {
-                    quote!((#first..#end).rev())
+                    quote!(::core::iter::Iterator::rev(#first..#end))
                 } else {
                     quote!(#first..#end)
                 };
@@ -389,15 +446,15 @@ impl Emitter {
             K::Scratch(register, body) => {
                 let Register { name, array, .. } = &**register;
                 let ty = register.format_tokens(&self.constants);
-                let text = shown(name);
+                let (text, one) = (shown(name), own("register"));
                 let body = self.block(body);
                 if let Some(Array { written, .. }) = array {
                     return quote! {
                         let mut #name: [__qrt::format::Reg<_, #ty>; #written] =
                             ::core::array::from_fn(|_| __qrt::format::Reg::zero(#machine, #text));
                         #body
-                        for register in #name {
-                            register.free(#machine);
+                        for #one in #name {
+                            #one.free(#machine);
                         }
                     };
                 }
@@ -435,7 +492,7 @@ impl Emitter {
             .map_or_else(|| 0.into(), |[first, _]| first.clone());
         let mut temporaries = self.temporaries();
         temporaries.copied.push(place.register.name.clone());
-        let mut when = quote!(None);
+        let mut when = quote!(::core::option::Option::None);
         let operand = match term {
             Term::Number(number) => temporaries.operand_at(number, &first),
             Term::Bit(Bit::Constant(true), _) => {
@@ -447,7 +504,7 @@ impl Emitter {
             Term::Bit(Bit::And(a, b), _) if !(a.is_negated() && b.is_negated()) => {
                 let (read, control) = if a.is_negated() { (b, a) } else { (a, b) };
                 let control = temporaries.bit(control);
-                when = quote!(Some(#control));
+                when = quote!(::core::option::Option::Some(#control));
                 temporaries.bit_operand(read, &first)
             }
             Term::Bit(bit, source) => {
@@ -456,7 +513,7 @@ impl Emitter {
                     NumberKind::Truth(bit) => {
                         let bit = temporaries.bit(bit);
                         let one = super::number::units(1);
-                        when = quote!(Some(#bit));
+                        when = quote!(::core::option::Option::Some(#bit));
                         temporaries.operand_at(&one, &first)
                     }
                     _ => temporaries.operand_at(&number, &first),
@@ -464,10 +521,14 @@ impl Emitter {
             }
         };
         let used = match update {
-            Update::Xor => quote!(#machine.xor_into(#target, #operand, #when);),
+            Update::Xor => quote!(__qrt::Machine::xor_into(#machine, #target, #operand, #when);),
             Update::Add | Update::Subtract => {
                 let subtract = update == Update::Subtract;
-                quote!(#machine.add_into(#target, #operand, #subtract, __qrt::When::Always);)
+                quote! {
+                    __qrt::Machine::add_into(
+                        #machine, #target, #operand, #subtract, __qrt::When::Always,
+                    );
+                }
             }
         };
         self.finish(&temporaries, &used)
@@ -494,6 +555,16 @@ impl Emitter {
     }
 }
 
+/// Returns the exchange of two registers.
+fn swapped(a: &TokenStream, b: &TokenStream) -> TokenStream {
+    let machine = own("machine");
+    quote! {
+        __qrt::Machine::swap(
+            #machine, #a.register_mut(), #b.register_mut(), ::core::option::Option::None,
+        );
+    }
+}
+
 /// Returns a register's name, as the author has written it.
 fn shown(name: &Ident) -> String {
     as_written(name.to_string())
@@ -514,6 +585,7 @@ fn written(statement: &Statement, names: &mut Vec<Ident>) {
             names.push(place.register.name.clone());
             return;
         }
+        K::Zero(_) => return,
         K::Swap(a, b) => {
             names.extend([a.name.clone(), b.name.clone()]);
             return;

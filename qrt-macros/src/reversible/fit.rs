@@ -14,6 +14,7 @@
 //! down to the target's last bit. Anything else is rounded down by `floor(..)` only. `wrapping(..)`
 //! takes the lowest bits of a number that is too long, and the bits of a signed number.
 
+use super::advice;
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
 use super::number::GIVEN;
@@ -63,13 +64,22 @@ impl Scope {
                 }
             };
             if alias {
-                let name = &target.register;
-                let message = format!("`{name}` is read by the statement that changes it");
-                let help = "copy what is read into a scratch register in `within!`, and use that";
-                self.problems.add(codes::REV_ALIAS, source, &message, help);
+                self.alias(target, source);
             }
         }
         Some(terms)
+    }
+
+    /// Reports an operand that the statement around it changes.
+    #[cfg_attr(test, track_caller)]
+    pub(super) fn alias(&mut self, target: &Place, source: impl ToTokens) {
+        let name = &target.register;
+        let message = format!("`{name}` is read by the statement that changes it");
+        let help = self
+            .updated
+            .as_ref()
+            .map_or_else(String::new, |updated| advice::elsewhere(target, updated));
+        self.problems.add(codes::REV_ALIAS, source, &message, &help);
     }
 
     fn bit_terms(&mut self, expression: &Expr, terms: &mut Vec<(Update, Term)>) -> Option<()> {

@@ -1,5 +1,6 @@
 //! The intermediate representation of a routine: names are resolved, widths are known.
 
+use super::constants::Constants;
 use super::dim::{self, Dim, Linear, Loop};
 use super::source::{text, type_text};
 use proc_macro2::{Span, TokenStream};
@@ -13,6 +14,13 @@ pub(super) struct Routine {
     pub(super) signature: Signature,
     pub(super) body: Vec<Statement>,
     pub(super) demands: Vec<Demand>,
+    pub(super) tables: Vec<Rc<Table>>,
+}
+
+/// A constant array of the author's module, and its name in the generated code.
+pub(super) struct Table {
+    pub(super) name: Ident,
+    pub(super) path: TokenStream,
 }
 
 /// All parts of a function except its body.
@@ -23,10 +31,12 @@ pub(super) struct Signature {
     pub(super) name: Ident,
     /// True if it is a method of a trait.
     pub(super) in_trait: bool,
+    /// The name of the machine's type, which the function does not mention.
+    pub(super) machine: Ident,
     /// The constants that the function itself is generic over.
-    pub(super) own: Vec<Ident>,
+    pub(super) own: Constants,
     /// The function's own constants, and those of the `impl` around it.
-    pub(super) constants: Vec<Ident>,
+    pub(super) constants: Constants,
     pub(super) parameters: Vec<Rc<Register>>,
     /// Names of parameters that are not registers.
     pub(super) unusable: Vec<Ident>,
@@ -176,6 +186,8 @@ pub(super) enum NumberKind {
     Given(Linear),
     /// Bits of a register from the given one on; their number is the number's width.
     Word(Rc<Register>, Linear),
+    /// An entry of a table.
+    Entry(Rc<Table>, Box<Entry>),
     Truth(Box<Bit>),
     /// The number times `2^n`.
     Shifted(Box<Number>, Linear),
@@ -187,6 +199,15 @@ pub(super) enum NumberKind {
     Square(Box<Number>),
     /// Numbers that are added, and numbers (`true`) that are subtracted.
     Sum(Vec<(bool, Number)>),
+}
+
+/// The place of a table's entry.
+#[derive(Clone)]
+pub(super) enum Entry {
+    /// A place that is known when the program is built.
+    At(Linear),
+    /// The number in some bits of a register; their number.
+    Of(Place, i64),
 }
 
 /// A truth value of an expression.
@@ -234,6 +255,8 @@ pub(super) struct Statement {
 pub(super) enum StatementKind {
     Update(Place, Vec<(Update, Term)>),
     Swap(Rc<Register>, Rc<Register>),
+    /// The author's claim that a scratch register is 0, which is checked whenever it runs.
+    Zero(Rc<Register>),
     Call {
         path: ExprPath,
         /// True if the call is of the inverse of the named function.
@@ -271,6 +294,7 @@ impl Statement {
                 K::Update(place.clone(), turned.collect())
             }
             K::Swap(a, b) => K::Swap(a.clone(), b.clone()),
+            K::Zero(register) => K::Zero(register.clone()),
             K::Call {
                 path,
                 inverse,

@@ -6,7 +6,7 @@
 
 use super::problem::Problems;
 use super::source::{SELF, text};
-use super::{Around, emit, signature, understood};
+use super::{Around, attributes, emit, signature, understood};
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use qrt_scene::syntax::codes;
 use quote::{ToTokens, quote};
@@ -97,6 +97,7 @@ pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> Toke
             sig: function.sig,
             block: syn::parse_quote!({}),
         };
+        attributes::check(&function, problems);
         let function = written_out(function, None, problems);
         functions.extend(emit::declared(&signature::read(
             &function, &around, problems,
@@ -119,7 +120,8 @@ fn written_out(mut function: ItemFn, own: Option<&Type>, problems: &mut Problems
             quote!(&mut)
         };
         let name = Ident::new(SELF, receiver.self_token.span);
-        function.sig.inputs[0] = syn::parse_quote!(#name: #reference #ty);
+        let attributes = &receiver.attrs;
+        function.sig.inputs[0] = syn::parse_quote!(#(#attributes)* #name: #reference #ty);
     }
     let written = syn::parse2(replaced(function.to_token_stream(), &ty));
     written.unwrap_or(function)
@@ -145,7 +147,10 @@ fn replaced(tokens: TokenStream, ty: &TokenStream) -> TokenStream {
                 written.extend([TokenTree::from(Ident::new(SELF, name.span()))]);
             }
             TokenTree::Ident(name) if name == "Self" && !begins_a_path() => {
-                written.extend(ty.clone());
+                written.extend(ty.clone().into_iter().map(|mut token| {
+                    token.set_span(name.span());
+                    token
+                }));
             }
             other => written.extend([other.clone()]),
         }

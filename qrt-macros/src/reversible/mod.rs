@@ -4,9 +4,13 @@
 //! tokens --signature, statement, number, bit, fit--> Routine --track--> checked --emit--> Rust
 //! ```
 
+mod advice;
+mod attributes;
 mod bit;
+mod bitwise;
 mod call;
 mod constant;
+mod constants;
 mod dim;
 mod emit;
 mod fit;
@@ -19,12 +23,13 @@ mod scope;
 mod signature;
 mod source;
 mod statement;
-pub(crate) mod term;
+mod table;
 #[cfg(test)]
 mod tests;
 mod track;
 mod value;
 
+use constants::Constants;
 use ir::Routine;
 use problem::Problems;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
@@ -33,17 +38,17 @@ use scope::Scope;
 
 /// Returns the expansion of an item with the attribute.
 pub(crate) fn expand(arguments: &TokenStream, item: TokenStream) -> TokenStream {
-    let offer = term::offer(&item);
     let (tokens, problems) = expanded(arguments, item);
     let errors = problems.tokens();
-    quote::quote!(#errors #tokens #offer)
+    quote::quote!(#errors #tokens)
 }
 
 fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problems) {
     let mut problems = Problems::default();
     if !arguments.is_empty() {
-        let message = "`#[reversible]` takes no arguments";
-        problems.add(codes::REV_ITEM, arguments, message, "write `#[reversible]`");
+        let message = "`#[reversible]` takes only the path of qrt";
+        let help = "write `#[reversible]`, or `#[reversible(crate = library::qrt)]`";
+        problems.add(codes::REV_ITEM, arguments, message, help);
     }
     let function = match syn::parse2::<syn::Item>(item.clone()) {
         Ok(syn::Item::Fn(function)) => function,
@@ -78,13 +83,16 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
 #[derive(Default)]
 struct Around {
     /// The constants that an `impl` is generic over.
-    constants: Vec<syn::Ident>,
+    constants: Constants,
     /// True if it is a method of a trait.
     in_trait: bool,
 }
 
 /// Returns the routine of a function, if it has no errors.
 fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) -> Option<Routine> {
+    if !attributes::check(function, problems) {
+        return None;
+    }
     let signature = signature::read(function, around, problems);
     let mut scope = Scope {
         routine: signature.name.clone(),
@@ -96,9 +104,19 @@ fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) 
         problems: std::mem::take(problems),
         writes: Vec::new(),
         fraction: None,
+        updated: None,
+        tables: Vec::new(),
+        block: 0,
         here: Span::call_site(),
     };
-    let body = scope.block(&function.block);
+    let mut block = function.block.clone();
+    if matches!(function.sig.output, syn::ReturnType::Type(..))
+        && matches!(block.stmts.last(), Some(syn::Stmt::Expr(_, None)))
+    {
+        // The value that the function returns, which has been reported at its type.
+        block.stmts.pop();
+    }
+    let body = scope.block(&block);
     *problems = scope.problems;
     if problems.count() == 0 {
         track::check(&signature.parameters, &body, problems);
@@ -107,6 +125,7 @@ fn understood(function: &syn::ItemFn, around: &Around, problems: &mut Problems) 
         signature,
         body,
         demands: scope.demands,
+        tables: scope.tables,
     })
 }
 

@@ -5,6 +5,7 @@
 //! | register | its own | its own |
 //! | `a[i..j]` | `j - i`, unsigned | 0 |
 //! | a bit | 1, unsigned | 0 |
+//! | `TABLE[k]` | those of the table's longest entry, unsigned | 0 |
 //! | constant | the fewest that hold it | the fewest that hold it |
 //! | `a * b` | the sum | the sum |
 //! | `a + b`, `a - b` | one more than the longer, signed if a difference | the greater |
@@ -12,6 +13,7 @@
 //! | `a >> n` of an integer | `n` less, rounded down | 0 |
 //! | `a >> n` of a number with a point | its own | `n` more |
 
+use super::advice;
 use super::constant::{Constant, Inexact, bits};
 use super::dim::{Dim, Linear};
 use super::ir::{Bit, Number, NumberKind, Place, Size};
@@ -45,6 +47,10 @@ impl Scope {
                 self.place(expression)?;
                 None
             }
+            Expr::Index(index) if self.table_path(index).is_some() => {
+                let path = self.table_path(index)?;
+                self.entry(path, index, source)
+            }
             Expr::Path(_) | Expr::Index(_) => {
                 let place = self.place(expression)?;
                 Some(word(place, source))
@@ -54,6 +60,13 @@ impl Scope {
                 self.sum(vec![(true, inner)], source)
             }
             Expr::Binary(binary) => self.binary(binary, source),
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {
+                let message = "`!` of a number is not computed reversibly";
+                let help = advice::in_scratch(expression);
+                self.problems
+                    .add(codes::REV_OPERATOR, unary.op, message, &help);
+                None
+            }
             _ => {
                 self.not_an_expression(expression);
                 None
@@ -189,13 +202,9 @@ impl Scope {
             operator => {
                 let shown = text(operator);
                 let message = format!("`{shown}` of numbers is not computed reversibly");
-                let help = match operator {
-                    BinOp::Div(_) => "for a power of two, write `>>`",
-                    BinOp::Rem(_) => "for a power of two, take the lowest bits: `a[0..4]`",
-                    _ => "`! & | ^` combine bits: write `a[0] & b[0]`",
-                };
+                let help = advice::operator(binary);
                 self.problems
-                    .add(codes::REV_OPERATOR, operator, &message, help);
+                    .add(codes::REV_OPERATOR, operator, &message, &help);
                 None
             }
         }

@@ -65,7 +65,7 @@ pub(super) fn demand(demands: &mut Vec<Demand>, mut new: Demand) {
 }
 
 /// True if a name is written like a constant's.
-fn is_constant(name: &Ident) -> bool {
+pub(super) fn is_constant(name: &Ident) -> bool {
     let name = name.to_string();
     name.contains(|letter: char| letter.is_uppercase()) && !name.contains(char::is_lowercase)
 }

@@ -9,17 +9,48 @@ use quote::ToTokens;
 /// All problems found so far.
 #[derive(Default)]
 pub(super) struct Problems {
-    found: Vec<syn::Error>,
+    found: Vec<Problem>,
+}
+
+/// A problem, with the tokens that the compiler underlines.
+pub(super) struct Problem {
+    pub(super) code: &'static str,
+    pub(super) message: String,
+    pub(super) help: String,
+    place: TokenStream,
+}
+
+impl Problem {
+    fn error(&self) -> syn::Error {
+        let Self {
+            code,
+            message,
+            help,
+            place,
+        } = self;
+        let text = as_written(format!("{message} [{code}]\n  = help: {help}"));
+        syn::Error::new_spanned(place, text)
+    }
 }
 
 impl Problems {
     /// Adds a problem. The tokens of `place` are underlined.
     #[cfg_attr(test, track_caller)]
-    pub(super) fn add(&mut self, code: &str, place: impl ToTokens, message: &str, help: &str) {
+    pub(super) fn add(
+        &mut self,
+        code: &'static str,
+        place: impl ToTokens,
+        message: &str,
+        help: &str,
+    ) {
         #[cfg(test)]
         crate::tests::checks::reached(std::panic::Location::caller(), code, message);
-        let message = as_written(format!("{message} [{code}]\n  = help: {help}"));
-        self.found.push(syn::Error::new_spanned(place, message));
+        self.found.push(Problem {
+            code,
+            message: message.to_owned(),
+            help: help.to_owned(),
+            place: place.into_token_stream(),
+        });
     }
 
     /// Adds an error of the parser's.
@@ -44,13 +75,20 @@ impl Problems {
     pub(super) fn tokens(&self) -> TokenStream {
         self.found
             .iter()
-            .map(syn::Error::to_compile_error)
+            .map(|problem| problem.error().to_compile_error())
             .collect()
+    }
+
+    /// Returns all problems, in the order in which they were found.
+    #[cfg(test)]
+    pub(super) fn found(&self) -> &[Problem] {
+        &self.found
     }
 
     /// Returns the messages of all problems.
     #[cfg(test)]
     pub(super) fn messages(&self) -> Vec<String> {
-        self.found.iter().map(ToString::to_string).collect()
+        let errors = self.found.iter().map(Problem::error);
+        errors.map(|error| error.to_string()).collect()
     }
 }

@@ -1,7 +1,8 @@
 //! The names that a statement can use: registers, constants, the loops around it.
 
+use super::constants::Constants;
 use super::dim::{self, Linear, Loop};
-use super::ir::{Demand, Place, Register};
+use super::ir::{Demand, Place, Register, Table};
 use super::outside;
 use super::problem::Problems;
 use super::source::bare;
@@ -16,7 +17,7 @@ pub(super) struct Scope {
     pub(super) registers: Vec<Rc<Register>>,
     /// Names whose declarations are wrong, which are reported only once.
     pub(super) unusable: Vec<Ident>,
-    pub(super) constants: Vec<Ident>,
+    pub(super) constants: Constants,
     /// Variables of the loops around, and the bounds of their ranges.
     pub(super) loops: Vec<Loop>,
     pub(super) demands: Vec<Demand>,
@@ -25,6 +26,12 @@ pub(super) struct Scope {
     pub(super) writes: Vec<(Place, TokenStream)>,
     /// Number of fraction bits of the updated register, which determine the possible constants.
     pub(super) fraction: Option<i64>,
+    /// The update that is being read.
+    pub(super) updated: Option<syn::ExprBinary>,
+    /// The constant arrays that are read.
+    pub(super) tables: Vec<Rc<Table>>,
+    /// Number of the registers that were known where the current block began.
+    pub(super) block: usize,
     /// The statement or term that is being read.
     pub(super) here: Span,
 }
@@ -59,7 +66,7 @@ impl Scope {
     }
 
     /// True if a name stands for a register, or for a faulty declaration of one.
-    fn is_known(&self, name: &Ident) -> bool {
+    pub(super) fn is_known(&self, name: &Ident) -> bool {
         let mut registers = self.registers.iter();
         registers.any(|register| register.name == *name) || self.unusable.contains(name)
     }
@@ -85,7 +92,7 @@ impl Scope {
             Expr::Paren(inner) => self.linear(&inner.expr),
             Expr::Group(inner) => self.linear(&inner.expr),
             Expr::Path(path) if path.qself.is_none() => match path.path.get_ident() {
-                Some(name) if self.is_number(name) => Some(Linear::name(name)),
+                Some(name) if self.is_number(name) => Some(self.constants.linear(name)),
                 Some(name) if self.is_known(name) => None,
                 _ => outside::constant(&path.path, &mut self.demands),
             },

@@ -1,13 +1,14 @@
 //! A function's signature: registers by reference, constants as its only generics.
 
+use super::constants::Constants;
 use super::dim::Linear;
 use super::ir::{Array, Demand, Format, Kind, Register, Signature};
 use super::problem::Problems;
 use super::source::{text, type_text};
-use super::{Around, outside};
+use super::{Around, attributes, outside};
 use proc_macro2::{TokenStream, TokenTree};
 use qrt_scene::syntax::codes;
-use quote::quote;
+use quote::{ToTokens, format_ident, quote};
 use std::rc::Rc;
 use syn::{
     BinOp, Expr, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Stmt,
@@ -58,8 +59,19 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
         );
     }
     let own = constants(&function.sig.generics, "a reversible function", problems);
-    let constants: Vec<Ident> = around.constants.iter().chain(&own).cloned().collect();
+    let constants = around.constants.followed_by(&own);
     let mut demands = Vec::new();
+    for name in constants.signed() {
+        let condition = quote!(#name >= 0);
+        let message = format!("QRT0823: `{name}` is negative");
+        let span = name.span();
+        let demand = Demand {
+            condition,
+            message,
+            span,
+        };
+        outside::demand(&mut demands, demand);
+    }
     let mut parameters: Vec<Rc<Register>> = Vec::new();
     let mut unusable = Vec::new();
     for input in &signature.inputs {
@@ -90,11 +102,16 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
         // rustc reports two parameters of the same name.
         parameters.push(Rc::new(register));
     }
+    let own_attributes = function
+        .attrs
+        .iter()
+        .filter(|own| attributes::is_outer(own));
     Signature {
-        attributes: function.attrs.clone(),
+        attributes: own_attributes.cloned().collect(),
         visibility: function.vis.clone(),
         name: signature.ident.clone(),
         in_trait: around.in_trait,
+        machine: machine_name(function, &constants),
         own,
         constants,
         parameters,
@@ -103,23 +120,35 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
     }
 }
 
+/// Returns a name for the machine's type that neither the function nor the item around it mentions.
+fn machine_name(function: &ItemFn, constants: &[Ident]) -> Ident {
+    let names = ["M", "Machine", "AnyMachine"].map(|name| format_ident!("{name}"));
+    let is_free = |name: &Ident| {
+        let name = std::slice::from_ref(name);
+        !constants.contains(&name[0]) && !names_any(function.to_token_stream(), name)
+    };
+    let free = names.into_iter().find(is_free);
+    free.unwrap_or_else(|| format_ident!("__Machine"))
+}
+
 /// Returns the constants that a function, or the item around it, is generic over.
 pub(super) fn constants(
     generics: &syn::Generics,
     what: &str,
     problems: &mut Problems,
-) -> Vec<Ident> {
-    let mut constants = Vec::new();
+) -> Constants {
+    let mut constants = Constants::default();
     for parameter in &generics.params {
         match parameter {
             GenericParam::Const(constant) => {
                 let ty = &constant.ty;
-                if !matches!(ty, Type::Path(path) if path.path.is_ident("u32")) {
+                let is_signed = is_named(ty, "i32");
+                if !is_signed && !is_named(ty, "u32") {
                     let message = format!("`{}` counts bits, and must be a `u32`", constant.ident);
                     let help = format!("write `const {}: u32`", constant.ident);
                     problems.add(codes::REV_GENERIC, ty, &message, &help);
                 }
-                constants.push(constant.ident.clone());
+                constants.push(&constant.ident, is_signed);
             }
             GenericParam::Type(_) | GenericParam::Lifetime(_) => problems.add(
                 codes::REV_GENERIC,
@@ -142,7 +171,7 @@ pub(super) fn constants(
 
 fn parameter(
     input: &FnArg,
-    constants: &[Ident],
+    constants: &Constants,
     demands: &mut Vec<Demand>,
     problems: &mut Problems,
 ) -> Option<Register> {
@@ -186,7 +215,7 @@ fn parameter(
         let ty = &input.ty;
         let shown = register_text(ty);
         let mut help = format!("write `{name}: &{shown}`, or `&mut {shown}` if it is changed");
-        if matches!(&**ty, Type::Path(path) if path.path.is_ident("u32")) {
+        if is_named(ty, "u32") {
             let constant = name.to_string().to_uppercase();
             help = format!("{help}; a constant stands in the generics, as `const {constant}: u32`");
         }
@@ -215,7 +244,7 @@ fn parameter(
 /// Returns the number of registers, if a type is an array's, and the type of one register.
 pub(super) fn array<'a>(
     ty: &'a Type,
-    constants: &[Ident],
+    constants: &Constants,
     demands: &mut Vec<Demand>,
     problems: &mut Problems,
 ) -> Option<(Option<Array>, &'a Type)> {
@@ -233,6 +262,17 @@ pub(super) fn array<'a>(
     let written = quote!(#length);
     let length = known;
     Some((Some(Array { length, written }), &array.elem))
+}
+
+/// True if a type has this name, by whatever path.
+fn is_named(ty: &Type, name: &str) -> bool {
+    let Type::Path(path) = ty else {
+        return false;
+    };
+    path.path
+        .segments
+        .last()
+        .is_some_and(|last| last.ident == name)
 }
 
 /// Returns the text of a type as a register's. A type that is no format becomes another format.
@@ -255,7 +295,7 @@ fn register_text(ty: &Type) -> String {
 /// Returns the format of a type.
 pub(super) fn format(
     ty: &Type,
-    constants: &[Ident],
+    constants: &Constants,
     demands: &mut Vec<Demand>,
     problems: &mut Problems,
 ) -> Option<Format> {
@@ -337,11 +377,15 @@ fn is_alias(ty: &Type) -> bool {
     path.qself.is_none() && last.is_some_and(named)
 }
 
-fn bits(size: &GenericArgument, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
+fn bits(
+    size: &GenericArgument,
+    constants: &Constants,
+    demands: &mut Vec<Demand>,
+) -> Option<Linear> {
     match size {
         GenericArgument::Const(expression) => width(expression, constants, demands),
         GenericArgument::Type(Type::Path(path)) => match path.path.get_ident() {
-            Some(name) if constants.contains(name) => Some(Linear::name(name)),
+            Some(name) if constants.contains(name) => Some(constants.linear(name)),
             _ => outside::constant(&path.path, demands),
         },
         _ => None,
@@ -349,7 +393,7 @@ fn bits(size: &GenericArgument, constants: &[Ident], demands: &mut Vec<Demand>) 
 }
 
 /// Reads a width: a sum of numbers, the module's constants and those of the function.
-fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> Option<Linear> {
+fn width(expression: &Expr, constants: &Constants, demands: &mut Vec<Demand>) -> Option<Linear> {
     if let Some(number) = super::scope::integer(expression) {
         return i64::try_from(number).map(Linear::from).ok();
     }
@@ -360,7 +404,7 @@ fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> O
             _ => None,
         },
         Expr::Path(path) => match path.path.get_ident() {
-            Some(name) if constants.contains(name) => Some(Linear::name(name)),
+            Some(name) if constants.contains(name) => Some(constants.linear(name)),
             _ => outside::constant(&path.path, demands),
         },
         Expr::Binary(binary) => {
@@ -379,9 +423,8 @@ fn width(expression: &Expr, constants: &[Ident], demands: &mut Vec<Demand>) -> O
 }
 
 /// Returns the generated name of a format that Rust's types cannot express. Its width is computed
-/// from the function's constants, or one of these constants, which is a `u32`, counts the bits
-/// before its point.
-pub(super) fn computed(ty: &Type, format: &Format, constants: &[Ident]) -> Option<Ident> {
+/// from the function's constants, or one of these constants has another type than the format's.
+pub(super) fn computed(ty: &Type, format: &Format, constants: &Constants) -> Option<Ident> {
     let Type::Path(path) = ty else {
         return None;
     };
@@ -401,8 +444,10 @@ pub(super) fn computed(ty: &Type, format: &Format, constants: &[Ident]) -> Optio
             }
             _ => false,
         };
+        // A constant of the other type, alone, is converted.
         let before_the_point = format.fixed() && place == 0;
-        names_any(quote!(#size), constants) && (!alone || before_the_point)
+        let is_signed = names_any(quote!(#size), constants.signed());
+        names_any(quote!(#size), constants) && (!alone || before_the_point != is_signed)
     });
     let written = format!("{:?} {} {}", format.kind, format.width, format.fraction);
     let words = [('+', "plus"), ('-', "minus"), ('*', "times")];

@@ -1,5 +1,6 @@
 //! Statements: their changes, and the check that these can be undone.
 
+use super::advice;
 use super::dim::Linear;
 use super::ir::{Bit, Place, Register, Statement, StatementKind as K};
 use super::scope::Scope;
@@ -14,7 +15,10 @@ use syn::{BinOp, Block, Expr, Ident, Local, Pat, Stmt, StmtMacro, Type};
 impl Scope {
     /// Reads a block. Its scratch registers are known up to its end.
     pub(super) fn block(&mut self, block: &Block) -> Vec<Statement> {
-        self.statements(&block.stmts)
+        let around = std::mem::replace(&mut self.block, self.registers.len());
+        let statements = self.statements(&block.stmts);
+        self.block = around;
+        statements
     }
 
     fn statements(&mut self, statements: &[Stmt]) -> Vec<Statement> {
@@ -79,9 +83,6 @@ impl Scope {
             return self.no_scratch(name, "a scratch register is there to be changed");
         }
         let name = name.ident.clone();
-        if let Some(attribute) = local.attrs.first() {
-            self.no_attribute(attribute);
-        }
         self.check_free(&name);
         let constants = self.constants.clone();
         let (demands, problems) = (&mut self.demands, &mut self.problems);
@@ -112,6 +113,9 @@ impl Scope {
     fn macros(&mut self, call: &StmtMacro, others: &[Stmt]) -> (Option<Statement>, usize) {
         let path = &call.mac.path;
         let pair = "write `within! { .. } apply! { .. }`";
+        if path.is_ident("assert_zero") {
+            return (self.zero(call), 0);
+        }
         if !path.is_ident("within") {
             let (code, message, help) = if path.is_ident("apply") {
                 (
@@ -120,7 +124,8 @@ impl Scope {
                     pair,
                 )
             } else {
-                let help = "only `within! { .. } apply! { .. }` can stand here";
+                let help =
+                    "only `within! { .. } apply! { .. }` and `assert_zero!(t)` can stand here";
                 (codes::REV_CALL, "a macro is not reversible", help)
             };
             self.problems.add(code, path, message, help);
@@ -135,7 +140,10 @@ impl Scope {
             }
         };
         let mut part = |call: &StmtMacro| match call.mac.parse_body_with(Block::parse_within) {
-            Ok(statements) => self.statements(&statements),
+            Ok(stmts) => self.block(&Block {
+                brace_token: syn::token::Brace::default(),
+                stmts,
+            }),
             Err(error) => {
                 self.problems.raw(&error);
                 Vec::new()
@@ -149,13 +157,32 @@ impl Scope {
         (Some(statement), 1)
     }
 
+    /// Reads `assert_zero!(t)`.
+    fn zero(&mut self, call: &StmtMacro) -> Option<Statement> {
+        let tokens = &call.mac.tokens;
+        let name = syn::parse2::<Ident>(tokens.clone()).ok();
+        let own = self.registers[self.block.min(self.registers.len())..].iter();
+        let mut own = own.filter(|known| !known.parameter && !known.is_array());
+        let register = name.and_then(|name| own.find(|known| known.name == name).cloned());
+        let Some(register) = register else {
+            let message = "a claim of 0 is of a scratch register of the same block";
+            let help = "write `assert_zero!(t);` in the block of `let mut t: UInt<8> = 0;`";
+            if tokens.is_empty() {
+                self.problems
+                    .add(codes::REV_ZERO, &call.mac.path, message, help);
+            } else {
+                self.problems.add(codes::REV_ZERO, tokens, message, help);
+            }
+            return None;
+        };
+        let kind = K::Zero(register);
+        let source = quote!(#call);
+        Some(Statement { kind, source })
+    }
+
     fn statement(&mut self, expression: &Expr) -> Option<Statement> {
         let source = quote!(#expression);
         self.here = begin(&source);
-        if let Some(attribute) = attribute(&source) {
-            self.no_attribute(attribute);
-            return None;
-        }
         let kind = match expression {
             Expr::Binary(binary) => return self.update(binary, source),
             Expr::Call(call) => return self.call(call, source),
@@ -169,8 +196,7 @@ impl Scope {
                     mac: call.mac.clone(),
                     semi_token: None,
                 };
-                self.macros(&call, &[]);
-                return None;
+                return self.macros(&call, &[]).0;
             }
             _ => {
                 self.no_statement(expression);
@@ -180,19 +206,11 @@ impl Scope {
         Some(Statement { kind, source })
     }
 
-    #[cfg_attr(test, track_caller)]
-    fn no_attribute(&mut self, attribute: impl ToTokens) {
-        let message = "a reversible function's statements take no attributes";
-        let help = "put attributes on the function";
-        self.problems
-            .add(codes::REV_STATEMENT, attribute, message, help);
-    }
-
     fn no_statement(&mut self, expression: &Expr) {
         let (code, place, message, help) = match expression {
             Expr::Assign(assign) => {
-                let (left, right) = (bare(&assign.left), bare(&assign.right));
-                let help = format!("write `{left} ^= {right}`, `+=` or `-=`");
+                let left = bare(&assign.left);
+                let help = advice::assignment(&left, &assign.right, self.is_bit(&assign.left));
                 let place = assign.eq_token.to_token_stream();
                 let message = format!("an assignment forgets what was in `{left}`");
                 self.problems
@@ -277,40 +295,33 @@ impl Scope {
             return None;
         }
         self.fraction = target.register.format.fraction.known();
-        let terms = self.terms(update, &target, &binary.right);
+        self.updated = Some(binary.clone());
+        let is_bit = self.is_bit(&binary.left);
+        let kind = if update == Xor && !is_bit && self.is_bitwise(&binary.right) {
+            self.bitwise(&target, &binary.right, &source)
+        } else {
+            let terms = self.terms(update, &target, &binary.right);
+            terms.map(|terms| K::Update(target.clone(), terms))
+        };
         self.fraction = None;
-        self.writes.push((target.clone(), quote!(#binary)));
-        let kind = K::Update(target, terms?);
+        self.updated = None;
+        self.writes.push((target, quote!(#binary)));
+        let kind = kind?;
         Some(Statement { kind, source })
     }
 
     fn no_update(&mut self, binary: &syn::ExprBinary, operator: BinOp) {
-        let (left, right) = (bare(&binary.left), bare(&binary.right));
         let shown = text(operator);
-        let (message, help) = match operator {
-            BinOp::MulAssign(_) => (
-                format!("`{shown}` has no inverse: 0 times anything is 0"),
-                format!("write `out += {left} * {right}` into a register that is 0 before"),
-            ),
-            BinOp::DivAssign(_) | BinOp::RemAssign(_) | BinOp::ShrAssign(_) => (
-                format!("`{shown}` has no inverse: it forgets bits"),
-                format!("for a power of two, write `out += {left} >> n` into another register"),
-            ),
-            BinOp::ShlAssign(_) => (
-                format!("`{shown}` has no inverse: it forgets bits"),
-                format!("write `out += {left} << {right}` into another register"),
-            ),
-            BinOp::BitAndAssign(_) | BinOp::BitOrAssign(_) => (
-                format!("`{shown}` has no inverse: it forgets bits"),
-                format!("write `out ^= {left} & {right}` into a bit that is 0 before"),
-            ),
-            _ => {
-                let message = "this statement changes no register";
-                let help = "write an update such as `a += b`";
-                self.problems
-                    .add(codes::REV_STATEMENT, binary, message, help);
-                return;
-            }
+        let Some(help) = advice::no_update(binary) else {
+            let message = "this statement changes no register";
+            let help = "write an update such as `a += b`";
+            self.problems
+                .add(codes::REV_STATEMENT, binary, message, help);
+            return;
+        };
+        let message = match operator {
+            BinOp::MulAssign(_) => format!("`{shown}` has no inverse: 0 times anything is 0"),
+            _ => format!("`{shown}` has no inverse: it forgets bits"),
         };
         self.problems
             .add(codes::REV_OPERATOR, operator, &message, &help);
@@ -351,8 +362,10 @@ impl Scope {
             if let Some(read) = reads.iter().find(|read| !self.apart(read, &written)) {
                 let shown = text(&branch.cond);
                 let message = format!("`{}` decides whether this runs", read.register);
-                let help =
-                    format!("change it after the `if`, or copy `{shown}` into a scratch register");
+                let help = format!(
+                    "write `flag ^= {shown}; if flag {{ .. }}`, with a parameter `flag: &mut Bool` \
+                     that tells the caller which way it went"
+                );
                 self.problems
                     .add(codes::REV_CONDITION, source, &message, &help);
             }
@@ -427,12 +440,12 @@ impl Scope {
                 let message = "QRT0811: loops within loops of more than 1,000,000 passes in all";
                 let passes = passes.iter().map(Linear::signed_tokens);
                 let product = quote!({
-                    let mut all: ::core::primitive::i64 = 1;
+                    let mut __all: ::core::primitive::i64 = 1;
                     #({
-                        let passes = #passes;
-                        all = all.saturating_mul(if passes > 0 { passes } else { 0 });
+                        let __passes = #passes;
+                        __all = __all.saturating_mul(if __passes > 0 { __passes } else { 0 });
                     })*
-                    all <= #MOST
+                    __all <= #MOST
                 });
                 self.demand(product, message);
             }
@@ -456,14 +469,6 @@ impl Scope {
             syn::RangeLimits::Closed(_) => [start, end.plus(&1.into())],
         })
     }
-}
-
-/// Returns the attribute that source text begins with.
-fn attribute(source: &TokenStream) -> Option<TokenStream> {
-    let mut tokens = source.clone().into_iter();
-    let sign = tokens.next().filter(|first| first.to_string() == "#")?;
-    let body = tokens.next();
-    Some(quote!(#sign #body))
 }
 
 /// Returns the name that a declaration gives.

@@ -1,14 +1,15 @@
 //! Expressions, computed out of place: their temporaries, and the way to read the result.
 
 use super::dim::{Dim, Linear};
-use super::ir::{Bit, Number, NumberKind, Register, Size};
+use super::ir::{Bit, Entry, Number, NumberKind, Register, Size, Table};
 use super::source::text;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-/// Returns a name of the generated code, which cannot collide with an author's name.
+/// Returns a variable of the generated code. It is another than an author's variable of the same
+/// name; an author's constant or static cannot be told from it, hence the underscores.
 pub(super) fn own(name: &str) -> Ident {
-    Ident::new(name, Span::mixed_site())
+    Ident::new(&format!("__{name}"), Span::mixed_site())
 }
 
 /// The temporaries that a statement computes before it and undoes after it.
@@ -75,7 +76,7 @@ impl Value {
             Self::Constant(units) => quote!(__qrt::Operand::Constant(#units)),
             Self::Word(view) => {
                 let word = view.tokens();
-                quote!(#word.into())
+                quote!(__qrt::Operand::Word(#word))
             }
         }
     }
@@ -115,18 +116,23 @@ impl Temporaries {
     pub(super) fn undone(&self) -> TokenStream {
         let names = self.names.iter().rev();
         let machine = own("machine");
-        quote!(#(#machine.undo([#names]);)*)
+        quote!(#(__qrt::Machine::undo(#machine, [#names]);)*)
     }
 
     pub(super) fn count(&self) -> usize {
         self.names.len()
     }
 
+    /// Returns the name of the next temporary.
+    fn next(&self) -> Ident {
+        own(&format!("t{}", self.first + self.names.len()))
+    }
+
     fn operation(&mut self, operation: &str, operands: &TokenStream) -> Ident {
-        let name = own(&format!("t{}", self.first + self.names.len()));
-        let (machine, operation) = (own("machine"), own(operation));
+        let name = self.next();
+        let (machine, operation) = (own("machine"), format_ident!("{operation}"));
         self.computed
-            .push(quote!(let #name = #machine.#operation(#operands);));
+            .push(quote!(let #name = __qrt::Machine::#operation(#machine, #operands);));
         self.names.push(name.clone());
         name
     }
@@ -160,8 +166,11 @@ impl Temporaries {
             }
             NumberKind::Given(value) => {
                 let value = value.tokens();
-                Value::Constant(quote!(::core::primitive::i64::from(#value)))
+                // The author's module need not have `From` in scope.
+                let from = quote!(<::core::primitive::i64 as ::core::convert::From<_>>::from);
+                Value::Constant(quote!(#from(#value)))
             }
+            NumberKind::Entry(table, entry) => self.entry(table, entry, number),
             NumberKind::Word(register, first) => Value::Word(self.read(register, first, number)),
             NumberKind::Truth(bit) => {
                 let when = self.bit(bit);
@@ -184,6 +193,36 @@ impl Temporaries {
                 Value::Word(View::temporary(&name, width.clone(), *signed))
             }
         }
+    }
+
+    fn entry(&mut self, table: &Table, entry: &Entry, number: &Number) -> Value {
+        let column = &table.name;
+        let (place, width) = match entry {
+            Entry::At(place) => {
+                let place = place.grouped();
+                return Value::Constant(quote!(#column[#place as ::core::primitive::usize]));
+            }
+            Entry::Of(place, width) => (place, *width),
+        };
+        let first = place
+            .part
+            .as_ref()
+            .map_or_else(|| 0.into(), |[first, _]| first.clone());
+        let address = (0..width).map(|bit| {
+            let bit = Bit::At(place.register.clone(), first.plus(&bit.into()));
+            self.bit(&bit)
+        });
+        let address: Vec<TokenStream> = address.collect();
+        let declared = declaration(number, &number.size.width);
+        let (name, machine) = (self.next(), own("machine"));
+        self.computed.push(quote! {
+            let [#name] = __qrt::Machine::table(
+                #machine, [#declared], &[#(#address),*], [#column], 0,
+            );
+        });
+        self.names.push(name.clone());
+        let Size { width, signed, .. } = &number.size;
+        Value::Word(View::temporary(&name, width.clone(), *signed))
     }
 
     fn read(&mut self, register: &Register, first: &Linear, number: &Number) -> View {
@@ -286,7 +325,7 @@ impl Temporaries {
             let next = self.operation(operation, &quote!(#declared, #sum, #term));
             let view = View::temporary(&next, result.size.width.clone(), result.size.signed);
             let word = view.tokens();
-            sum = quote!(#word.into());
+            sum = quote!(__qrt::Operand::Word(#word));
             name = Some(next);
         }
         name.unwrap_or_else(|| format_ident!("_"))

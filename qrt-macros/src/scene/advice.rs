@@ -1,7 +1,7 @@
 //! Advice: the right thing to write, in the macro's form.
 
 use qrt_scene::syntax::{
-    Expected, Material, MeshFile, Sampling, Structure, What, Words, codes, listed, nearest,
+    Description, Expected, Material, MeshFile, Sampling, Structure, What, codes, listed, nearest,
 };
 
 /// Examples of keys and entries.
@@ -24,6 +24,8 @@ const EXAMPLES: &[(&str, &str)] = &[
         "triangle",
         "triangle: white { (0, 0, 0), (1, 0, 0), (0, 1, 0) }",
     ),
+    ("sphere", "sphere: white { center: (0, 1, 0), radius: 1 }"),
+    ("sky", "sky { radiance: rgb(1, 1, 1) }"),
     ("mesh", "mesh: white { obj: \"mesh.obj\" }"),
     ("depth", "depth primary { bits: (8, 8) }"),
     ("sampling", "sampling { path_bits: 12 }"),
@@ -53,7 +55,16 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
     ("jacobian", "jacobian: auto"),
     ("value", "value: 0.5 / pi"),
+    ("center", "center: (0, 1, 0)"),
+    ("radius", "radius: 1"),
+    ("horizon", "horizon: rgb(1, 1, 1)"),
+    ("zenith", "zenith: rgb(0.5, 0.7, 1)"),
+    ("lens", "lens: { aperture: 0.1, focus: 10 }"),
+    ("aperture", "aperture: 0.1"),
+    ("focus", "focus: 10"),
     ("obj", "obj: \"mesh.obj\""),
+    ("ply", "ply: \"mesh.ply\""),
+    ("gltf", "gltf: \"mesh.glb\""),
     ("bits", "bits: (8, 8)"),
     ("error", "error: 0.01"),
     ("confidence", "confidence: 0.95"),
@@ -70,7 +81,9 @@ pub(crate) fn record(name: &str) -> String {
     let key = match name {
         "perspective" | "orthographic" => "eye",
         "lambertian" => "albedo",
-        "emitter" => "radiance",
+        "emitter" | "sky" => "radiance",
+        "sphere" => "radius",
+        "lens" => "aperture",
         "mirror" | "ggx" => "reflectance",
         "dielectric" => "ior",
         "phong" => "exponent",
@@ -91,7 +104,7 @@ pub(crate) fn record(name: &str) -> String {
 }
 
 /// Returns a problem of the checker in the words of the macro.
-pub(crate) fn description(what: &What) -> Words {
+pub(crate) fn description(what: &What) -> Description {
     let mut words = match what {
         What::Structure(Structure::UnknownWord { word, noun, words }) => {
             let word = spelled(word);
@@ -118,6 +131,9 @@ fn help(what: &What) -> Option<String> {
                 let written = !examples.is_empty();
                 return written.then(|| format!("write `{}`", examples.join(", ")));
             }
+        }
+        What::Structure(Structure::NoFile) => {
+            "write `obj: \"mesh.obj\"`, `ply: \"mesh.ply\"` or `gltf: \"mesh.glb\"`"
         }
         What::Structure(Structure::WrongType { expected, .. }) => match expected {
             Expected::Elements(count) => return of_length(*count),

@@ -9,13 +9,15 @@ use qrt_scene::syntax::{codes, listed, nearest};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.
-pub(super) const ENTRIES: [&str; 17] = [
+pub(super) const ENTRIES: [&str; 19] = [
     "name",
     "camera",
     "film",
+    "sky",
     "material",
     "quad",
     "triangle",
+    "sphere",
     "mesh",
     "depth",
     "sampling",
@@ -29,12 +31,14 @@ pub(super) const ENTRIES: [&str; 17] = [
     "for",
 ];
 /// Entries that a loop may repeat.
-const REPEATED: [&str; 6] = ["quad", "triangle", "mesh", "depth", "const", "for"];
+const REPEATED: [&str; 7] = [
+    "quad", "triangle", "sphere", "mesh", "depth", "const", "for",
+];
 
 /// The origin of a primitive or a depth, with its author's label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
-    /// `quad`, `triangle`, `mesh` or `depth`.
+    /// `quad`, `triangle`, `sphere`, `mesh` or `depth`.
     pub(crate) kind: &'static str,
     /// The author's label; `None` if there is none.
     pub(crate) label: Option<String>,
@@ -220,10 +224,11 @@ impl Body {
             "material" => self.material(first, rest, place),
             "quad" => self.primitive("quad", first, rest, place),
             "triangle" => self.primitive("triangle", first, rest, place),
+            "sphere" => self.primitive("sphere", first, rest, place),
             "mesh" => self.primitive("mesh", first, rest, place),
             "depth" => self.depth(first, rest, place),
-            "sampling" | "precision" | "comparator" | "counting" | "circuit" | "accuracy"
-            | "budget" => {
+            "sky" | "sampling" | "precision" | "comparator" | "counting" | "circuit"
+            | "accuracy" | "budget" => {
                 let node = match self.braces(word, first, rest) {
                     Some((braces, inner)) => self.reader.record(word, inner, braces),
                     None => faulty(place),

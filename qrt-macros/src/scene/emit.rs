@@ -3,7 +3,7 @@
 use super::{Header, Parsed, Source};
 use proc_macro2::{Literal, TokenStream};
 use qrt_scene::valid::ValidScene;
-use quote::quote;
+use quote::{format_ident, quote};
 use std::path::{Path, PathBuf};
 
 /// Returns the expansion of a scene without errors, with the code that was `generated` for it.
@@ -20,7 +20,7 @@ pub(crate) fn expansion(
         ..
     } = &parsed.header;
     let conditions = parsed.header.conditions();
-    let text = Literal::string(&valid.scene().to_yaml());
+    let items = crate::generate::items(valid.scene());
     let folder = match &parsed.source {
         Source::File(loaded) => Path::new(&loaded.source.name).parent(),
         _ => None,
@@ -36,11 +36,12 @@ pub(crate) fn expansion(
     let watched = match &parsed.source {
         Source::File(loaded) => {
             let bytes = bytes(Path::new(&loaded.source.name), root);
-            quote!(#conditions const _: &[u8] = #bytes;)
+            quote!(#conditions const _: &[::core::primitive::u8] = #bytes;)
         }
         _ => TokenStream::new(),
     };
-    let about = Literal::string(&about(valid));
+    let about = [about(valid), crate::generate::about(valid)].join("\n\n");
+    let about = Literal::string(about.trim_end());
     let separator = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
     quote! {
         #attributes
@@ -52,16 +53,16 @@ pub(crate) fn expansion(
         impl #name {
             /// The scene, checked.
             #visibility fn scene() -> &'static ::qrt::scene::valid::ValidScene {
-                static SCENE: ::std::sync::OnceLock<::qrt::scene::valid::ValidScene> =
-                    ::std::sync::OnceLock::new();
-                const TEXT: &str = #text;
-                const FILES: &[(&str, &[u8])] = &[#(#files),*];
+                static SCENE: ::qrt::__std::sync::OnceLock<::qrt::scene::valid::ValidScene> =
+                    ::qrt::__std::sync::OnceLock::new();
+                static ITEMS: &[::qrt::scene::front::Item<'static>] = #items;
+                const FILES: &[(&::core::primitive::str, &[::core::primitive::u8])] = &[#(#files),*];
                 SCENE.get_or_init(|| {
-                    let files = ::qrt::scene::front::Files::held(FILES);
-                    match ::qrt::scene::front::parse_with(TEXT, "the scene", &[], files) {
-                        ::core::result::Result::Ok(loaded) => loaded.valid,
-                        // The same text and the same files were checked when this was compiled.
-                        ::core::result::Result::Err(report) => ::core::unreachable!("{report}"),
+                    let __files = ::qrt::scene::front::Files::held(FILES);
+                    match ::qrt::scene::front::from_items(ITEMS, __files) {
+                        ::core::result::Result::Ok(__valid) => __valid,
+                        // The same data and the same files were checked when this was compiled.
+                        ::core::result::Result::Err(__invalid) => ::core::unreachable!("{__invalid}"),
                     }
                 })
             }
@@ -72,33 +73,29 @@ pub(crate) fn expansion(
     }
 }
 
-/// Returns the expansion of a scene with errors: enough for the rest of a program to be understood.
-pub(crate) fn stub(header: &Header) -> TokenStream {
+/// Returns the expansion of a scene with errors, of which `error` is one: a type that has the same
+/// error in a constant.
+///
+/// The compiler shows equal errors once. It reports nothing about a type with an error, whatever
+/// the rest of the program asks of it: items, traits, fields, formats.
+pub(crate) fn stub(header: &Header, error: &TokenStream) -> TokenStream {
     let Header {
-        attributes,
-        visibility,
-        name,
-        ..
+        visibility, name, ..
     } = header;
     let conditions = header.conditions();
-    let figures = crate::generate::stub(
-        &name.to_string(),
-        &quote!(#visibility).to_string(),
-        &conditions.to_string(),
-    );
+    let hidden = format_ident!("{name}WithErrors");
     quote! {
-        #attributes
-        #visibility struct #name;
-
-        #figures
+        #conditions
+        #[doc(hidden)]
+        #visibility struct #hidden<const ERROR: ::core::primitive::bool>;
 
         #conditions
-        impl #name {
-            /// The scene, once its errors are corrected.
-            #visibility fn scene() -> &'static ::qrt::scene::valid::ValidScene {
-                ::core::unreachable!("this scene has errors")
-            }
-        }
+        #[allow(dead_code, missing_docs, reason = "the scene has errors")]
+        #visibility type #name = #hidden<{ #error }>;
+
+        #conditions
+        #[allow(dead_code, missing_docs, non_upper_case_globals, reason = "the scene has errors")]
+        #visibility const #name: #name = #error;
     }
 }
 
@@ -122,12 +119,17 @@ fn about(valid: &ValidScene) -> String {
         let plural = if count == 1 { "" } else { "s" };
         format!("{count} {noun}{plural}")
     };
+    let polygons = count(valid.polygons().len(), "polygon");
+    let faces = match valid.balls().len() {
+        0 => polygons,
+        spheres => format!("{polygons} and {}", count(spheres, "sphere")),
+    };
     format!(
         "The scene `{}`: {} x {} pixels, {}, 2^{} paths of {} a pixel.",
         scene.name.replace('`', "'"),
         scene.film.width,
         scene.film.height,
-        count(valid.polygons().len(), "polygon"),
+        faces,
         scene.sampling.path_bits,
         count(scene.sampling.depths.len(), "ray"),
     )

@@ -3,7 +3,7 @@
 
 use super::fault::Faults;
 use super::names::{Meaning, Names};
-use super::tokens::{Kind, Token, join, place_of};
+use super::tokens::{Kind, Token, join, place_of, written};
 use proc_macro2::Delimiter;
 use qrt_scene::expr::{Expr, Variables};
 use qrt_scene::syntax::tree::Span;
@@ -28,14 +28,13 @@ impl Expression {
         expression.add(tokens, names, faults).then_some(expression)
     }
 
-    /// Creates an expression of a text, all of which is at one place.
-    pub(crate) fn whole(text: String, place: Span) -> Self {
-        let pieces = vec![(0..text.len(), place)];
-        Self { text, pieces }
-    }
-
     fn add(&mut self, tokens: &[Token], names: &Names, faults: &mut Faults) -> bool {
         let mut ok = true;
+        if let Some((place, help)) = method(tokens) {
+            let message = "an expression has functions, and no methods";
+            faults.add(codes::MACRO_VALUE, place, message).help(help);
+            return false;
+        }
         for token in tokens {
             match &token.kind {
                 Kind::Word(word) => match names.value(word) {
@@ -116,6 +115,30 @@ impl Expression {
         let near = near.map(|near| format!("did you mean `{near}`?"));
         faults.add(words.code, place, words.message).help = near.or(words.help);
     }
+}
+
+/// Returns the place of a call of a method, and the advice to call a function.
+fn method(tokens: &[Token]) -> Option<(Span, String)> {
+    let at = tokens.windows(4).position(|four| {
+        let named = four[2].word().is_some();
+        four[1].is_sign('.') && named && four[3].group(Delimiter::Parenthesis).is_some()
+    })?;
+    let four = &tokens[at..at + 4];
+    let given = four[3].group(Delimiter::Parenthesis).unwrap_or_default();
+    let (receiver, name) = (written(&four[..1]), four[2].word().unwrap_or_default());
+    let receiver = match receiver
+        .strip_prefix('(')
+        .and_then(|inner| inner.strip_suffix(')'))
+    {
+        Some(inner) if !name.starts_with("pow") => inner,
+        _ => receiver.as_str(),
+    };
+    let help = match (name, given) {
+        ("powi" | "powf" | "pow", [_]) => format!("write `{receiver}^{}`", written(given)),
+        (_, []) => format!("write `{name}({receiver})`"),
+        _ => format!("write `{name}({receiver}, {})`", written(given)),
+    };
+    Some((join(four[0].place(), four[3].place()), help))
 }
 
 /// True if a number has no suffix; reports a suffix.

@@ -1,10 +1,18 @@
 //! Errors in a macro's input, and their reports to the compiler.
 
 use super::tokens::Table;
-use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
-use qrt_scene::syntax::tree;
+use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
+use qrt_scene::syntax::{codes, tree};
 use quote::{quote, quote_spanned};
+use std::collections::HashSet;
 use std::fmt::Write as _;
+
+/// The codes of names that the scene does not define.
+const UNDEFINED: [&str; 3] = [
+    codes::MACRO_NUMBER_NAME,
+    codes::UNKNOWN_MATERIAL,
+    codes::EXPR_NAME,
+];
 
 /// One error, at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -133,19 +141,35 @@ impl Faults {
         self.0
     }
 
+    /// Reduces the faults from number `from` on, those of one scene: a name that it does not define
+    /// is one fault, at the name's first place.
+    pub(crate) fn merge_undefined(&mut self, from: usize) {
+        let mut own = self.0.split_off(from);
+        own.sort_by_key(|fault| fault.place.start);
+        let mut undefined = HashSet::new();
+        own.retain(|fault| {
+            let name = (fault.code, fault.message.clone());
+            !UNDEFINED.contains(&fault.code) || undefined.insert(name)
+        });
+        self.0.append(&mut own);
+    }
+
     /// Adds the faults of another scene of the same input.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
     }
 }
 
-/// Returns the compiler's warning `text` at a span. A macro cannot warn on stable Rust. But the
-/// compiler warns about the use of a deprecated item, and shows its note.
-pub(crate) fn compile_warning(text: &str, (first, _): (Span, Span)) -> TokenStream {
+/// Returns the compiler's warning `text` about the scene `name` at a span. A macro cannot warn on
+/// stable Rust. But the compiler warns about the use of a deprecated item, and shows its name and
+/// its note.
+pub(crate) fn compile_warning(text: &str, name: &Ident, (first, _): (Span, Span)) -> TokenStream {
     let note = Literal::string(text);
-    let used = quote_spanned!(first=> QRT_WARNING);
+    let mut used = name.clone();
+    used.set_span(first);
     quote! {
         const _: () = {
+            #[allow(non_upper_case_globals)]
             #[deprecated(note = #note)]
             const #used: () = ();
             #used

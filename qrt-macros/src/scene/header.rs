@@ -4,7 +4,10 @@ use super::fault::Faults;
 use proc_macro2::{Ident, TokenStream};
 use qrt_scene::syntax::tree::Span;
 use qrt_scene::syntax::{Report, codes};
+use quote::quote;
+use syn::Token;
 use syn::parse::Parser as _;
+use syn::punctuated::Punctuated;
 
 /// A scene's name, and the tokens before it.
 #[derive(Debug)]
@@ -23,9 +26,8 @@ impl Header {
     /// Returns the attributes that all of the scene's expansion must have: its `cfg`s.
     pub(crate) fn conditions(&self) -> TokenStream {
         let attributes = syn::Attribute::parse_outer.parse2(self.attributes.clone());
-        let attributes = attributes.unwrap_or_default().into_iter();
-        let conditions = attributes.filter(|attribute| attribute.path().is_ident("cfg"));
-        conditions.map(quote::ToTokens::into_token_stream).collect()
+        let conditions = attributes.unwrap_or_default().into_iter();
+        conditions.filter_map(|own| condition(&own)).collect()
     }
 
     /// Returns the scene's name unless its entries give another: `cornell-box` for `CornellBox`.
@@ -58,10 +60,52 @@ impl Header {
     }
 }
 
+/// Returns an attribute as far as it is a condition: `#[cfg(a)]`, and `#[cfg_attr(a, cfg(b))]` of an
+/// attribute that may have others behind `a`.
+fn condition(attribute: &syn::Attribute) -> Option<TokenStream> {
+    if attribute.path().is_ident("cfg") {
+        return Some(quote!(#attribute));
+    }
+    let syn::Meta::List(list) = &attribute.meta else {
+        return None;
+    };
+    if !list.path.is_ident("cfg_attr") {
+        return None;
+    }
+    let parts = Punctuated::<syn::Meta, Token![,]>::parse_terminated.parse2(list.tokens.clone());
+    let mut parts = parts.ok()?.into_iter();
+    let when = parts.next()?;
+    let conditions = parts.filter(|part| part.path().is_ident("cfg"));
+    let conditions: Vec<syn::Meta> = conditions.collect();
+    (!conditions.is_empty()).then(|| quote!(#[cfg_attr(#when, #(#conditions),*)]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proc_macro2::Span;
+
+    fn conditions(attributes: TokenStream) -> String {
+        let header = Header {
+            attributes,
+            visibility: TokenStream::new(),
+            name: Ident::new("Room", Span::call_site()),
+            path: None,
+        };
+        header.conditions().to_string()
+    }
+
+    #[test]
+    fn all_of_a_scene_is_under_its_conditions() {
+        let found = conditions(quote! {
+            /// A room.
+            #[cfg(unix)]
+            #[cfg_attr(test, derive(Debug), cfg(feature = "rooms"))]
+            #[cfg_attr(test, derive(Debug))]
+        });
+        let expected = quote!(#[cfg(unix)] #[cfg_attr(test, cfg(feature = "rooms"))]);
+        assert_eq!(found, expected.to_string());
+    }
 
     #[test]
     fn types_name_their_scenes() {

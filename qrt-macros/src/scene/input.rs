@@ -3,10 +3,9 @@
 use super::body::Body;
 use super::fault::{Faults, compile_error, compile_warning};
 use super::header::Header;
-use super::terms::{Asked, Terms};
 use super::tokens::{self, Kind, Table, Token, place_of};
 use super::values::{entry, scalar};
-use super::{Parsed, REFUSED, check, emit};
+use super::{Parsed, REFUSED, check, earlier, emit};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use qrt_scene::front::load_below;
 use qrt_scene::syntax::tree::{Entry, Node, Span, Value};
@@ -19,35 +18,43 @@ use std::sync::Arc;
 /// A scene that was read, and its checked form if it has no errors.
 pub(crate) type Read = (Parsed, Option<ValidScene>);
 
-/// Returns the expansion of `qrt!`, or the request for a function that its scenes name. Files are
-/// relative to `root`. Warnings are left out if there are errors.
-pub(crate) fn expand(asked: Asked, root: &Path) -> TokenStream {
-    if let Some(question) = asked.next() {
-        return question;
-    }
+/// Returns the expansion of `qrt!`. Files are relative to `root`. Warnings are left out if there are
+/// errors.
+pub(crate) fn expand(input: TokenStream, root: &Path) -> TokenStream {
     let mut table = Table::default();
     let mut faults = Faults::default();
-    let (terms, mut out) = asked.terms();
-    let scenes = read(asked.input, &terms, root, &mut table, &mut faults);
-    for (parsed, valid) in &scenes {
-        let generated = valid
-            .as_ref()
-            .and_then(|valid| match generated(parsed, valid) {
-                Ok(code) => Some(emit::expansion(parsed, valid, root, &code)),
-                Err(problems) => {
-                    parsed.report(problems, &mut faults);
-                    None
-                }
-            });
-        out.extend(generated.unwrap_or_else(|| emit::stub(&parsed.header)));
-    }
-    if faults.count() == 0 && terms.values().all(Option::is_some) {
+    let mut out = TokenStream::new();
+    let scenes = read(input, root, &mut table, &mut faults);
+    let code = scenes.iter().map(|(parsed, valid)| {
+        let valid = valid.as_ref()?;
+        match generated(parsed, valid) {
+            Ok(code) => Some(emit::expansion(parsed, valid, root, &code)),
+            Err(problems) => {
+                parsed.report(problems, &mut faults);
+                None
+            }
+        }
+    });
+    let code: Vec<Option<TokenStream>> = code.collect();
+    if faults.count() == 0 {
         out.extend(scenes.iter().map(|scene| warnings(scene, &table)));
     }
     for fault in faults.finalize() {
         out.extend(compile_error(&fault.text(&table), fault.ends(&table)));
     }
+    let error = first_error(&out);
+    for ((parsed, _), code) in scenes.iter().zip(code) {
+        out.extend(code.unwrap_or_else(|| emit::stub(&parsed.header, &error)));
+    }
     out
+}
+
+/// Returns the first of the compiler's errors: its tokens up to the braces.
+fn first_error(errors: &TokenStream) -> TokenStream {
+    let is_end = |tree: &TokenTree| matches!(tree, TokenTree::Group(_));
+    let trees: Vec<TokenTree> = errors.clone().into_iter().collect();
+    let length = trees.iter().position(is_end).map_or(0, |end| end + 1);
+    trees.into_iter().take(length).collect()
 }
 
 /// Returns the compiler's warnings of a scene.
@@ -58,7 +65,11 @@ fn warnings((parsed, valid): &Read, table: &Table) -> TokenStream {
     }
     let conditions = parsed.header.conditions();
     let shown = warnings.finalize().into_iter().map(|warning| {
-        let shown = compile_warning(&warning.text(table), warning.ends(table));
+        let shown = compile_warning(
+            &warning.text(table),
+            &parsed.header.name,
+            warning.ends(table),
+        );
         quote!(#conditions #shown)
     });
     shown.collect()
@@ -77,10 +88,9 @@ fn generated(parsed: &Parsed, valid: &ValidScene) -> Result<TokenStream, Vec<Pro
     )
 }
 
-/// Reads the scenes of `input`, which may name `terms`.
+/// Reads the scenes of `input`.
 pub(crate) fn read(
     input: TokenStream,
-    terms: &Terms,
     root: &Path,
     table: &mut Table,
     faults: &mut Faults,
@@ -95,7 +105,6 @@ pub(crate) fn read(
         trees: &trees,
         tokens: &tokens,
         at: 0,
-        terms,
         faults,
         names: Vec::new(),
     };
@@ -111,7 +120,7 @@ pub(crate) fn read(
 }
 
 /// Collects token trees without the invisible brackets of other macros' variables.
-pub(super) fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
+fn flatten(stream: TokenStream, out: &mut Vec<TokenTree>) {
     for tree in stream {
         match tree {
             TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
@@ -133,7 +142,6 @@ struct Input<'t> {
     trees: &'t [TokenTree],
     tokens: &'t [Token],
     at: usize,
-    terms: &'t Terms,
     faults: &'t mut Faults,
     /// The scenes so far: their names, the conditions that they are compiled under, and their
     /// places.
@@ -226,7 +234,6 @@ impl<'t> Input<'t> {
             Some(Rest::Body(tokens)) => {
                 let mut body = Body::default();
                 body.reader.later = constants(tokens);
-                body.reader.terms.clone_from(self.terms);
                 body.entries(tokens, false);
                 if let Some(precision) = precision {
                     add_precision(&mut body, precision);
@@ -244,28 +251,32 @@ impl<'t> Input<'t> {
             }
         };
         let is_sound = self.faults.count() == known;
+        self.faults.merge_undefined(known);
         Some((parsed, valid.filter(|_| is_sound)))
     }
 
-    /// Reports a name that an earlier scene has under the same conditions.
+    /// Reports a name that an earlier scene of the same scope has under the same conditions.
     fn is_taken(&mut self, header: &Header, place: Span) -> bool {
         let name = header.name.to_string();
         let conditions = header.conditions().to_string();
         let mut known = self.names.iter();
         let known = known.find(|(known, under, _)| *known == name && *under == conditions);
-        if let Some((.., first)) = known {
-            self.faults
-                .add(
-                    codes::MACRO_SCENE_TWICE,
-                    place,
-                    format!("a scene is called `{name}` already"),
-                )
-                .also(*first, "the first is")
-                .help("rename one of the two");
-            return true;
+        let known = known.map(|(.., first)| *first);
+        let before = earlier::line(&header.name).filter(|_| conditions.is_empty());
+        if known.is_none() && before.is_none() {
+            self.names.push((name, conditions, place));
+            return false;
         }
-        self.names.push((name, conditions, place));
-        false
+        let message = format!("a scene is called `{name}` already");
+        let fault = self.faults.add(codes::MACRO_SCENE_TWICE, place, message);
+        match (known, before) {
+            (Some(first), _) => fault.also(first, "the first is"),
+            (None, line) => {
+                fault.note(format!("the first is on line {}", line.unwrap_or_default()))
+            }
+        };
+        fault.help("rename one of the two");
+        true
     }
 
     /// Reads the scene of a file.

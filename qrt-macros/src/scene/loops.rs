@@ -170,7 +170,7 @@ impl Body {
             self.reader
                 .faults
                 .add(codes::MACRO_LOOP_SIZE, place, message)
-                .help("put large geometry into OBJ meshes");
+                .help("put large geometry into mesh files (OBJ, PLY, glTF)");
             return;
         }
         self.passes += count;

@@ -5,6 +5,7 @@
 
 mod advice;
 mod body;
+mod earlier;
 mod emit;
 mod expression;
 mod fault;
@@ -15,16 +16,14 @@ mod loops;
 mod names;
 mod parts;
 mod records;
-mod terms;
 mod tokens;
 mod values;
 
 pub(crate) use body::Origin;
 pub(crate) use fault::Faults;
 pub(crate) use input::expand;
-pub(crate) use terms::Asked;
 #[cfg(test)]
-pub(crate) use {input::Read, input::read, terms::Terms, tokens::Table};
+pub(crate) use {input::Read, input::read, tokens::Table};
 
 use body::Body;
 use header::Header;

@@ -57,8 +57,8 @@ impl Body {
         let Some((at, inner)) = self.braces(kind, first, rest) else {
             return self.add_primitive(kind, label, faulty(place));
         };
-        let mut record = if kind == "mesh" {
-            self.reader.record("mesh", inner, at)
+        let mut record = if let "mesh" | "sphere" = kind {
+            self.reader.record(kind, inner, at)
         } else {
             let Some(points) = self.points(kind, inner, at) else {
                 return self.add_primitive(kind, label, faulty(place));

@@ -16,7 +16,7 @@ impl Reader {
                 self.incomplete.push(place);
                 continue;
             };
-            if (name, key) == ("mesh", "material") {
+            if let ("mesh" | "sphere", "material") = (name, key) {
                 let white = place_of(rest).map_or(at, |end| join(at, end));
                 self.faults
                     .add(
@@ -24,7 +24,13 @@ impl Reader {
                         white,
                         "the material stands before the braces",
                     )
-                    .help("write `mesh: white { obj: \"mesh.obj\" }`");
+                    .help(format!(
+                        "write `{name}: white {{ {} }}`",
+                        match name {
+                            "mesh" => "obj: \"mesh.obj\"",
+                            _ => "center: (0, 1, 0), radius: 1",
+                        }
+                    ));
                 if let Some(name) = rest.first().filter(|name| name.name().is_some()) {
                     let material = text(name.name().unwrap_or_default(), name.place());
                     entries.push(entry(key, at, material));
@@ -106,9 +112,12 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
     let mut end = 0;
     for mut part in split_fields(tokens) {
         end += part.len() + 1;
-        // A colon after the first belongs to another key.
+        // A colon after the first belongs to another key, unless it stands between the bars of a
+        // map.
+        let bars = |tokens: &[Token]| tokens.iter().filter(|token| token.is_sign('|')).count();
         while let Some(at) = (2..part.len().saturating_sub(1)).find(|&at| {
             part[at].word().is_some()
+                && bars(&part[..at]).is_multiple_of(2)
                 && matches!(part[at + 1].kind, Kind::Sign(':', false))
                 && !part[at - 1].is_sign(':')
                 && !(part[at - 1].is_sign('-') && part[..at].iter().all(|t| !t.is_sign(':')))

@@ -77,15 +77,6 @@ impl Token {
         }
     }
 
-    /// Returns the letters of a word or a sign.
-    pub(crate) fn text(&self) -> String {
-        match &self.kind {
-            Kind::Word(word) => word.clone(),
-            Kind::Sign(sign, _) => sign.to_string(),
-            _ => self.found(),
-        }
-    }
-
     /// Describes the token, for "expected a value, found ...".
     pub(crate) fn found(&self) -> String {
         match &self.kind {
@@ -98,6 +89,32 @@ impl Token {
             Kind::Group(..) => "`{ ... }`".to_owned(),
         }
     }
+}
+
+/// Returns tokens as an author writes them.
+pub(crate) fn written(tokens: &[Token]) -> String {
+    let mut text = String::new();
+    for token in tokens {
+        let own = match &token.kind {
+            Kind::Word(word) | Kind::Other(word) => word.clone(),
+            Kind::Sign(sign, _) => sign.to_string(),
+            Kind::Number(digits, suffix) => format!("{digits}{suffix}"),
+            Kind::Text(text) => format!("{text:?}"),
+            Kind::Group(Delimiter::Bracket, inner) => format!("[{}]", written(inner)),
+            Kind::Group(Delimiter::Brace, inner) => format!("{{ {} }}", written(inner)),
+            Kind::Group(_, inner) => format!("({})", written(inner)),
+        };
+        let joins = text.is_empty()
+            || own == ","
+            || own.starts_with('^')
+            || text.ends_with('^')
+            || own.starts_with('(') && text.ends_with(|c: char| c.is_alphanumeric());
+        if !joins {
+            text.push(' ');
+        }
+        text.push_str(&own);
+    }
+    text
 }
 
 /// Returns the place from the first of these tokens to the last.

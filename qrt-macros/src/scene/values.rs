@@ -3,8 +3,7 @@
 use super::expression::{Expression, number};
 use super::fault::Faults;
 use super::names::Names;
-use super::terms::Terms;
-use super::tokens::{Kind, Token, between_commas, join, place_of};
+use super::tokens::{Kind, Token, between_commas, join, place_of, written};
 use proc_macro2::Delimiter;
 use qrt_scene::syntax::codes;
 use qrt_scene::syntax::tree::{Entry, Node, Scalar, Span, Value};
@@ -19,8 +18,6 @@ pub(crate) struct Reader {
     pub(crate) names: Names,
     /// The names of all constants of the scene, including those that are defined later.
     pub(crate) later: Vec<String>,
-    /// The functions that stand for values, by name.
-    pub(crate) terms: Terms,
     /// The expressions: a node of source `n` is number `n - 1`.
     pub(crate) expressions: Vec<Expression>,
     /// Records in which a key could not be read: a key that they lack may be that one.
@@ -56,7 +53,7 @@ impl Sort {
                 "sequence" | "map" | "at" | "window" | "estimator" | "uncompute" | "nearest"
                 | "fraction" | "lights",
             ) => Self::Word,
-            (_, "name" | "obj") => Self::Text,
+            (_, "name" | "obj" | "ply" | "gltf") => Self::Text,
             _ => Self::Plain,
         }
     }
@@ -219,11 +216,22 @@ impl Reader {
     }
 
     fn expression(&mut self, tokens: &[Token], place: Span) -> Node {
-        if tokens.first().is_some_and(|token| token.is_word("fn")) {
-            let message = "a reversible function stands for all of `value`";
+        if let [bar, rest @ ..] = tokens
+            && bar.is_sign('|')
+        {
+            let body = rest.iter().position(|token| token.is_sign('|'));
+            let body = body.map_or(rest, |end| &rest[end + 1..]);
+            let message = "an expression names its variables without declaring them";
             self.faults
-                .add(codes::MACRO_TERM, place, message)
-                .help("write `value: fn my_term`, or an expression here");
+                .add(codes::MACRO_VALUE, place, message)
+                .help(format!("write `{}`", written(body)));
+            return faulty(place);
+        }
+        if let Some(help) = apart(tokens) {
+            let message = "`rgb(..)` stands for all of `value`";
+            self.faults
+                .add(codes::MACRO_VALUE, place, message)
+                .help(help);
             return faulty(place);
         }
         let Some(expression) = Expression::from_tokens(tokens, &self.names, &mut self.faults)
@@ -243,41 +251,7 @@ impl Reader {
         scalar(text, false, Span { source, ..place })
     }
 
-    /// Reads `fn my_term`, which stands for the expressions that the function computes.
-    fn term(&mut self, path: &[Token], place: Span) -> Node {
-        // The value of another macro's variable.
-        let path = match path {
-            [only] => only.group(Delimiter::Parenthesis).unwrap_or(path),
-            path => path,
-        };
-        let name: String = path.iter().map(Token::text).collect();
-        let Some(channels) = self.terms.get(&name) else {
-            let message = "behind `fn` stands the name of a reversible function";
-            self.faults
-                .add(codes::MACRO_TERM, place, message)
-                .help("write `value: fn my_term`, or `value: fn my_module::my_term`");
-            return faulty(place);
-        };
-        // The errors of a term have been reported to the compiler.
-        let Some(channels) = channels.clone() else {
-            return faulty(place);
-        };
-        let texts = channels.into_iter();
-        let nodes = texts.map(|text| self.text_of(Expression::whole(text, place), place));
-        let mut nodes: Vec<Node> = nodes.collect();
-        if nodes.len() == 1 {
-            return nodes.remove(0);
-        }
-        let value = Value::List(Arc::new(nodes));
-        Node { span: place, value }
-    }
-
     fn channels(&mut self, tokens: &[Token], place: Span) -> Node {
-        if let [keyword, path @ ..] = tokens
-            && keyword.is_word("fn")
-        {
-            return self.term(path, place);
-        }
         let inner = match tokens {
             [rgb, channels] if rgb.is_word("rgb") => {
                 channels.group(Delimiter::Parenthesis).map(between_commas)
@@ -316,6 +290,18 @@ impl Reader {
                 });
             }
         }
+        if let [bar, rest @ ..] = tokens
+            && bar.is_sign('|')
+            && let Some(end) = rest.iter().position(|token| token.is_sign('|'))
+            && rest[..end].iter().any(|token| token.is_sign(':'))
+        {
+            let message = "the variables of a map have no types: both are numbers from 0 to 1";
+            let bars = place_of(&tokens[..end + 2]).unwrap_or(place);
+            self.faults
+                .add(codes::MACRO_MAP, bars, message)
+                .help("write `|u, v|`");
+            return faulty(place);
+        }
         self.faults
             .add(
                 codes::MACRO_MAP,
@@ -328,6 +314,24 @@ impl Reader {
             ));
         faulty(place)
     }
+}
+
+/// Returns the advice for an expression with `rgb(r, g, b)` in it: the expression of each channel.
+fn apart(tokens: &[Token]) -> Option<String> {
+    let at = tokens.windows(2).position(|pair| {
+        pair[0].is_word("rgb") && pair[1].group(Delimiter::Parenthesis).is_some()
+    })?;
+    let channels = between_commas(tokens[at + 1].group(Delimiter::Parenthesis)?);
+    let (before, after) = (written(&tokens[..at]), written(&tokens[at + 2..]));
+    let channels = channels.into_iter().map(|channel| {
+        let own = match channel {
+            [_] => written(channel),
+            several => format!("({})", written(several)),
+        };
+        format!("{before} {own} {after}").trim().to_owned()
+    });
+    let channels: Vec<String> = channels.collect();
+    Some(format!("write `rgb({})`", channels.join(", ")))
 }
 
 /// Returns the elements of `(a, b)`, `(a,)` or `[...]`; `(a)` is no list but a number in

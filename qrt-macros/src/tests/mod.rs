@@ -8,7 +8,7 @@ mod grammar;
 mod twins;
 mod writer;
 
-use crate::scene::{Faults, Read, Table, Terms, read};
+use crate::scene::{Faults, Read, Table, read};
 use std::path::Path;
 
 /// Reads `text`, relative to `root`. Returns the scenes and the errors, with codes and messages.
@@ -18,7 +18,7 @@ fn read_text(text: &str, root: &Path) -> (Vec<Read>, Vec<String>) {
         .unwrap_or_else(|error| panic!("{error}: {text}"));
     let mut table = Table::default();
     let mut faults = Faults::default();
-    let scenes = read(stream, &Terms::new(), root, &mut table, &mut faults);
+    let scenes = read(stream, root, &mut table, &mut faults);
     let faults = faults.finalize();
     let texts = faults.iter().map(|fault| fault.text(&table));
     (scenes, texts.collect())

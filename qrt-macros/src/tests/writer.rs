@@ -49,7 +49,7 @@ fn block(entry: &Entry) -> Option<String> {
             text
         }
         "sampling" => sampling(node)?,
-        "precision" | "comparator" | "counting" | "circuit" | "accuracy" | "budget" => {
+        "sky" | "precision" | "comparator" | "counting" | "circuit" | "accuracy" | "budget" => {
             format!("{key} {},\n", record(key, node)?)
         }
         _ => return None,
@@ -95,10 +95,10 @@ fn primitive(node: &Node) -> Option<String> {
             _ => return None,
         },
     };
-    let body = if key == "mesh" {
+    let body = if let "mesh" | "sphere" = key.as_str() {
         let rest = map(node)?.iter().filter(|entry| entry.key != "material");
         let value = Value::Map(Arc::new(rest.cloned().collect()));
-        record("mesh", &Node { value, ..*node })?
+        record(key, &Node { value, ..*node })?
     } else {
         let known = |entry: &Entry| matches!(entry.key.as_str(), "vertices" | "material");
         if !map(node)?.iter().all(known) {

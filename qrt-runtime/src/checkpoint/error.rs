@@ -1,12 +1,12 @@
 //! Errors of reading and writing checkpoints.
 
-use super::format::VERSION;
+use super::VERSION;
 use std::io;
 use std::path::PathBuf;
 
 /// A property in which a checkpoint differs from the render that opens it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Difference {
+pub struct CheckpointDifference {
     /// The name of the property: `scene`, `seed`, `film`, `crop`, or the name of an option.
     pub what: String,
     /// Its value in the checkpoint; `None` if the checkpoint does not set it.
@@ -52,7 +52,7 @@ pub enum CheckpointError {
     #[error("`{}` belongs to another render{}", .path.display(), listed(.differences))]
     Differs {
         path: PathBuf,
-        differences: Vec<Difference>,
+        differences: Vec<CheckpointDifference>,
     },
     /// A tile is outside the crop, or its number of pixels or queries is not its area.
     #[error("a tile of {width} x {height} at ({x}, {y}) is not filled or not in the crop")]
@@ -65,9 +65,9 @@ pub enum CheckpointError {
 }
 
 /// Formats one line for each difference.
-fn listed(differences: &[Difference]) -> String {
+fn listed(differences: &[CheckpointDifference]) -> String {
     let of = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".into());
-    let line = |Difference { what, found, asked }: &Difference| {
+    let line = |CheckpointDifference { what, found, asked }: &CheckpointDifference| {
         format!("\n  {what}: there {}, here {}", of(found), of(asked))
     };
     let mut lines: String = differences.iter().map(line).collect();

@@ -11,19 +11,22 @@
 //!         queries (u64 each), good ids (3 u64 each), widths of intervals (3 f64 each),
 //!         strata (3 u8 each)
 //! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
-//! ending  u32 2, text, u32 count of words, words (u64 each); always the last record, and only in the
-//!         file of a part of a picture, which has no `part` records
+//! ending  u32 2, u32 length, bytes: the properties of a picture, by postcard; always the last record,
+//!         and only in the file of a part of a picture, which has no `part` records
 //! ```
+//!
+//! The pixels' layout is fixed, so that the length of a tile's record follows from its rectangle. The
+//! library without features has checkpoints, and does without serde.
 
-use super::{CheckpointError, Difference, Header, Part, Tile};
+use super::{CheckpointDifference, CheckpointError, Header, PixelPart, Tile, VERSION};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(super) const MAGIC: &[u8; 8] = b"QRTTILES";
-pub(super) const VERSION: u32 = 5;
 /// Kinds of record: the first word of a record.
 const TILE: u32 = 0;
 const PART: u32 = 1;
+#[cfg(feature = "parts")]
 const ENDING: u32 = 2;
 /// Bytes of a tile's record without its pixels, and bytes of each pixel.
 const RECORD: u64 = 24;
@@ -96,7 +99,7 @@ impl Header {
         read().filter(is_whole).ok_or_else(damaged)
     }
 
-    pub(crate) fn differences(&self, asked: &Self) -> Vec<Difference> {
+    pub(crate) fn differences(&self, asked: &Self) -> Vec<CheckpointDifference> {
         let fields = |h: &Self| {
             [
                 ("scene", h.scene_hash.clone()),
@@ -115,7 +118,7 @@ impl Header {
         fields
             .chain(options)
             .filter(|(_, found, asked)| found != asked)
-            .map(|(what, found, asked)| Difference {
+            .map(|(what, found, asked)| CheckpointDifference {
                 what: what.to_owned(),
                 found,
                 asked,
@@ -188,15 +191,14 @@ impl Tile {
 /// A record behind the header.
 pub(crate) enum Record {
     Tile(Tile),
-    Part(Part),
+    Part(PixelPart),
+    #[cfg(feature = "parts")]
     Ending(Ending),
 }
 
-/// The text and the words that follow all pixels in the file of a part of a picture.
-pub(crate) struct Ending {
-    pub(crate) text: String,
-    pub(crate) words: Vec<u64>,
-}
+/// The bytes that follow all pixels in the file of a part of a picture.
+#[cfg(feature = "parts")]
+pub(crate) struct Ending(pub(crate) Vec<u8>);
 
 impl Record {
     /// Decodes a record and removes it from `bytes`; `None` at the end, or if the record is
@@ -205,14 +207,15 @@ impl Record {
         let all = *bytes;
         match take_u32(bytes)? {
             TILE => Tile::decode(bytes, all, crop).map(Self::Tile),
-            PART => Part::decode(bytes, all, crop).map(Self::Part),
+            PART => PixelPart::decode(bytes, all, crop).map(Self::Part),
+            #[cfg(feature = "parts")]
             ENDING => Ending::decode(bytes, all).map(Self::Ending),
             _ => None,
         }
     }
 }
 
-impl Part {
+impl PixelPart {
     pub(crate) fn encode(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(36 + 8 * self.totals.len());
         for number in [&[PART], &self.pixel[..]].into_iter().flatten() {
@@ -220,7 +223,10 @@ impl Part {
         }
         bytes.extend(self.number.to_le_bytes());
         bytes.extend(self.paths.to_le_bytes());
-        put_words(&mut bytes, &self.totals);
+        bytes.extend((self.totals.len() as u32).to_le_bytes());
+        for word in &self.totals {
+            bytes.extend(word.to_le_bytes());
+        }
         seal(bytes)
     }
 
@@ -229,7 +235,9 @@ impl Part {
         let pixel = [take_u32(bytes)?, take_u32(bytes)?];
         Tile::new([pixel[0], pixel[1], 1, 1]).area_within(crop)?;
         let [number, paths] = [take_u64(bytes)?, take_u64(bytes)?];
-        let totals = take_words(bytes)?;
+        let count = u64::from(take_u32(bytes)?);
+        let words = take_bytes(bytes, 8 * count)?.as_chunks::<8>().0.iter();
+        let totals = words.map(|word| u64::from_le_bytes(*word)).collect();
         take_seal(bytes, all)?;
         Some(Self {
             pixel,
@@ -240,20 +248,21 @@ impl Part {
     }
 }
 
+#[cfg(feature = "parts")]
 impl Ending {
     pub(crate) fn encode(&self) -> Vec<u8> {
         let mut bytes = ENDING.to_le_bytes().to_vec();
-        put_text(&mut bytes, &self.text);
-        put_words(&mut bytes, &self.words);
+        bytes.extend((self.0.len() as u32).to_le_bytes());
+        bytes.extend(&self.0);
         seal(bytes)
     }
 
     /// Decodes an ending from `bytes`, which begin behind the kind; `all` begins with the kind.
     fn decode(bytes: &mut &[u8], all: &[u8]) -> Option<Self> {
-        let text = take_text(bytes)?;
-        let words = take_words(bytes)?;
+        let length = take_u32(bytes)?;
+        let held = take_bytes(bytes, length.into())?.to_vec();
         take_seal(bytes, all)?;
-        Some(Self { text, words })
+        Some(Self(held))
     }
 }
 
@@ -274,13 +283,6 @@ fn put_text(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
-fn put_words(bytes: &mut Vec<u8>, words: &[u64]) {
-    bytes.extend((words.len() as u32).to_le_bytes());
-    for word in words {
-        bytes.extend(word.to_le_bytes());
-    }
-}
-
 fn take_bytes<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
     let (taken, rest) = bytes.split_at_checked(usize::try_from(count).ok()?)?;
     *bytes = rest;
@@ -299,12 +301,6 @@ fn take_rectangle(bytes: &mut &[u8]) -> Option<[u32; 4]> {
 
 fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
     Some(u64::from_le_bytes(take_bytes(bytes, 8)?.try_into().ok()?))
-}
-
-fn take_words(bytes: &mut &[u8]) -> Option<Vec<u64>> {
-    let words = u64::from(take_u32(bytes)?);
-    let words = take_bytes(bytes, 8 * words)?.as_chunks::<8>().0.iter();
-    Some(words.map(|word| u64::from_le_bytes(*word)).collect())
 }
 
 fn take_text(bytes: &mut &[u8]) -> Option<String> {

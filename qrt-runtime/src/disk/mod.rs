@@ -1,13 +1,13 @@
 //! File operations of results and checkpoints; each operation that can fail has one function here.
 //!
-//! These functions never follow links: [`Place`] resolves a path beforehand. A test can make any
-//! operation fail, or cut the power before it: see `faults`.
+//! These functions never follow links: [`ResolvedPath`] resolves a path beforehand. A test can make
+//! any operation fail, or cut the power before it: see `faults`.
 
 #[cfg(test)]
 pub(crate) mod faults;
 mod place;
 
-pub use place::Place;
+pub use place::ResolvedPath;
 pub(crate) use place::folder;
 
 use place::Identity;

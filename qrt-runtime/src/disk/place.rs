@@ -27,14 +27,15 @@ impl Identity {
 /// A path resolved through all links, for files that exist and files that don't exist yet.
 ///
 /// ```
-/// use qrt_runtime::disk::Place;
+/// use qrt_runtime::disk::ResolvedPath;
 /// use std::path::Path;
-/// let [one, other] = [Place::resolve("new.png".as_ref())?, Place::resolve("./new.png".as_ref())?];
+/// let one = ResolvedPath::resolve("new.png".as_ref())?;
+/// let other = ResolvedPath::resolve("./new.png".as_ref())?;
 /// assert!(one.is_same_as(&other));
 /// # Ok::<(), std::io::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct ResolvedPath {
     path: PathBuf,
     kind: Kind,
 }
@@ -49,7 +50,7 @@ enum Kind {
     Device,
 }
 
-impl Place {
+impl ResolvedPath {
     /// Resolves `path`.
     ///
     /// # Errors
@@ -178,7 +179,7 @@ mod tests {
     use std::os::unix::fs::symlink;
 
     fn same(one: &Path, other: &Path) -> bool {
-        let [one, other] = [one, other].map(|path| Place::resolve(path).unwrap());
+        let [one, other] = [one, other].map(|path| ResolvedPath::resolve(path).unwrap());
         assert_eq!(one.is_same_as(&other), other.is_same_as(&one));
         one.is_same_as(&other)
     }
@@ -220,13 +221,15 @@ mod tests {
         }
         symlink("loop", path("loop")).unwrap();
         for name in ["loop", "none/new", "below/none/new"] {
-            assert!(Place::resolve(&path(name)).is_err(), "{name}");
+            assert!(ResolvedPath::resolve(&path(name)).is_err(), "{name}");
         }
         symlink("none/new", path("lost")).unwrap();
-        let error = Place::resolve(&path("lost")).unwrap_err().to_string();
+        let error = ResolvedPath::resolve(&path("lost"))
+            .unwrap_err()
+            .to_string();
         assert!(error.starts_with("there is no folder `"), "{error}");
         for name in ["", "..", "/"] {
-            let place = Place::resolve(Path::new(name));
+            let place = ResolvedPath::resolve(Path::new(name));
             assert!(place.is_err() || place.unwrap().is_folder(), "{name}");
         }
     }

@@ -7,7 +7,7 @@
 //! <https://openexr.com/en/latest/OpenEXRFileLayout.html>; all numbers are little-endian.
 
 use super::metadata::{Metadata, PREFIX};
-use super::{Image, Layer, Window};
+use super::{CropWindow, Image, Layer};
 use std::io::{self, Write};
 
 const MAGIC: u32 = 20_000_630;
@@ -81,7 +81,7 @@ fn header(image: &Image, names: &[&str], metadata: &Metadata) -> Vec<u8> {
     }
     channels.push(0);
     // The first and the last column and row, both inclusive.
-    let Window { origin, film } = image.window();
+    let CropWindow { origin, film } = image.window();
     let window = |[x, y]: [u32; 2], [width, height]: [u32; 2]| -> Vec<u8> {
         let corners = [x, y, x + width - 1, y + height - 1];
         corners.iter().flat_map(|v| v.to_le_bytes()).collect()

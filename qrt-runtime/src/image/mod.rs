@@ -5,7 +5,6 @@
 //! record how the picture was made. Both are written whole or not at all. Each is a feature of this
 //! crate, `exr` and `png`; without the feature, pictures of that kind are refused.
 
-pub mod compare;
 mod counts;
 #[cfg(feature = "exr")]
 mod exr_file;
@@ -35,12 +34,12 @@ pub struct Image {
     pub pixels: Vec<[f64; 3]>,
     /// The picture's place in a larger one, if it is a crop. EXR stores the place (as `dataWindow`
     /// within `displayWindow`), PNG does not.
-    pub window: Option<Window>,
+    pub window: Option<CropWindow>,
 }
 
 /// The place of a picture in a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub struct CropWindow {
     /// Column and row of the picture's top left pixel in the larger picture.
     pub origin: [u32; 2],
     /// Width and height of the larger picture.
@@ -55,6 +54,22 @@ pub struct Layer {
     /// The values row by row from the top, each row from the left.
     pub values: Vec<f64>,
 }
+
+/// The path of a picture: any path. Without the features `png` and `exr` no picture can be written,
+/// and a path to write one to does not compile.
+#[cfg_attr(
+    not(any(feature = "exr", feature = "png")),
+    diagnostic::on_unimplemented(
+        message = "qrt was built without its features `png` and `exr`, and writes no pictures",
+        label = "the path of a picture",
+        note = "help: write `features = [\"png\"]`, `[\"exr\"]` or both in the line of qrt in \
+                Cargo.toml"
+    )
+)]
+pub trait PicturePath: AsRef<Path> {}
+
+#[cfg(any(feature = "exr", feature = "png"))]
+impl<T: AsRef<Path> + ?Sized> PicturePath for T {}
 
 /// The file format of a picture. Each is a feature of the crate with that name.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,13 +91,24 @@ impl Encoding {
     ///
     /// ```
     /// use qrt_runtime::image::Encoding;
-    /// use std::path::Path;
-    /// let encoding = Encoding::for_path(Path::new("box.png"), Some(1.5))?;
+    /// let encoding = Encoding::for_path("box.png", Some(1.5))?;
     /// assert_eq!(encoding, Encoding::Png { exposure: 1.5 });
-    /// assert!(Encoding::for_path(Path::new("box.jpg"), None).is_err());
+    /// assert!(Encoding::for_path("box.jpg", None).is_err());
     /// # Ok::<(), qrt_runtime::image::ImageError>(())
     /// ```
-    pub fn for_path(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
+    #[cfg_attr(
+        not(any(feature = "png", feature = "exr")),
+        allow(
+            clippy::needless_pass_by_value,
+            reason = "no type is a path of a picture then"
+        )
+    )]
+    pub fn for_path(path: impl PicturePath, exposure: Option<f64>) -> Result<Self, ImageError> {
+        Self::for_name(path.as_ref(), exposure)
+    }
+
+    /// As [`Encoding::for_path`], also in a build without pictures.
+    pub(crate) fn for_name(path: &Path, exposure: Option<f64>) -> Result<Self, ImageError> {
         let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
         let encoding = match (
             extension.as_deref().and_then(std::ffi::OsStr::to_str),
@@ -236,8 +262,8 @@ fn check_layers(image: &Image, layers: &[Layer], encoding: Encoding) -> Result<(
 
 impl Image {
     /// Returns the window of the picture, or a window of its own size if it is not a crop.
-    fn window(&self) -> Window {
-        self.window.unwrap_or(Window {
+    fn window(&self) -> CropWindow {
+        self.window.unwrap_or(CropWindow {
             origin: [0, 0],
             film: [self.width, self.height],
         })
@@ -250,7 +276,7 @@ impl Image {
             ref pixels,
             ..
         } = self;
-        let Window { origin, film } = self.window();
+        let CropWindow { origin, film } = self.window();
         // The largest size that PNG and EXR can store.
         let largest = (1 << 31) - 1;
         let shape =
@@ -313,8 +339,8 @@ pub enum ImageError {
     Extension { path: PathBuf },
     /// The picture has a format whose feature is off.
     #[error(
-        "qrt was built without its feature `{feature}`, and writes no .{feature}: add the feature to \
-         the dependency"
+        "qrt was built without its feature `{feature}`, and writes no .{feature}: write \
+         `features = [\"{feature}\"]` in the line of qrt in Cargo.toml"
     )]
     Feature { feature: &'static str },
     /// The exposure is not a number of stops between -1,000 and 1,000.

@@ -168,7 +168,7 @@ fn an_exr_keeps_radiance_and_another_reader_finds_all_of_it() {
 fn an_exr_says_where_it_was_cut_out() {
     let folder = Scratch::new();
     let path = folder.path("p.exr");
-    let window = |origin, film| Some(Window { origin, film });
+    let window = |origin, film| Some(CropWindow { origin, film });
     for (window, position, display) in [
         (None, (0, 0), (5, 3)),
         (window([2, 7], [13, 11]), (2, 7), (13, 11)),
@@ -257,6 +257,16 @@ fn a_value_that_no_file_can_hold_is_refused_and_nothing_is_written() {
         assert!(matches!(error, ImageError::Shape { .. }));
     }
     assert!(folder.names().is_empty());
+}
+
+#[test]
+fn a_missing_feature_is_refused_with_the_words_for_the_manifest() {
+    let refused = ImageError::Feature { feature: "exr" };
+    assert_eq!(
+        refused.to_string(),
+        "qrt was built without its feature `exr`, and writes no .exr: write \
+         `features = [\"exr\"]` in the line of qrt in Cargo.toml"
+    );
 }
 
 #[test]

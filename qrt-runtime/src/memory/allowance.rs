@@ -2,10 +2,13 @@
 //! before it begins, with an error that says how much it would take and what to lower.
 
 use super::allowed_bytes;
-use qrt_circuit::lower;
-use qrt_core::oracle::{MOST_BITS, Options, Oracle};
+use qrt_circuit::Cores;
+use qrt_circuit::lower::{self, Cost};
+use qrt_core::oracle::{MOST_BITS, Oracle};
+use qrt_scene::Uncompute;
 use qrt_scene::valid::{Scatter, ValidScene};
-use std::time::Instant;
+use std::num::NonZeroUsize;
+use std::thread::available_parallelism;
 
 /// Bytes of the rows that the same gates run on, one row after another, if gates are generated for
 /// each run instead of held: for one thread, and for all threads together.
@@ -48,23 +51,27 @@ pub(crate) fn bytes_of_templates(threads: usize, qubits: u32) -> usize {
 const OF_FACE: u64 = 1000;
 /// Bytes of a pixel in tiles, picture and files; 83 of them are in a tile.
 const OF_PIXEL: u64 = 104;
+/// Bytes of a basis state of the sparse state vector while states are mixed, without its bits.
+const OF_STATE: f64 = 92.0;
 /// Bytes of a pixel in a comparison of two pictures: both pictures, their difference, and FLIP's
 /// filtered planes.
 const OF_COMPARED_PIXEL: u64 = 120;
 /// The largest number of operations, by [`expected_operations`], of a circuit that is compiled
-/// without an estimate before it. For such a circuit the estimate takes as long.
+/// without an estimate before it: compiling takes a second, and less than a gigabyte.
 const FEW_OPERATIONS: f64 = 40_000.0;
 /// Operations of a face for each ray, as in the knot; and operations of a node of a user-defined
 /// BSDF, which takes one or two.
 const OF_RAY_AND_FACE: f64 = 31.0;
 const OF_NODE: f64 = 2.0;
-/// Faces of the two reduced scenes from which the size of the whole is extrapolated; fewer if there
-/// are many rays.
-const PARTS: [usize; 2] = [64, 128];
-/// The smallest number of faces of a reduced scene; scenes with no more faces are not reduced.
-const FEW_FACES: usize = 4;
-/// Rays of a path in the two reduced scenes, if reducing the number of faces is not enough.
-const RAYS: [usize; 2] = [4, 8];
+/// The least fraction of the expected size that a circuit has: faces along the axes take fewer
+/// operations than those of the knot.
+const LEAST: f64 = 0.2;
+/// Qubits of an operation if all qubits are kept until the end, as in the knot, whose 142,875
+/// operations need 12.3 million qubits; and if a stage frees its qubits (55,496 in the knot).
+const KEPT_QUBITS: f64 = 86.0;
+const FREED_QUBITS: f64 = 0.4;
+/// Operations that are compiled in a second: a round figure, for an estimate of minutes or hours.
+const COMPILED: f64 = 5e4;
 
 /// The memory budget of work; unless set, three quarters of the memory that the process may use.
 ///
@@ -106,6 +113,14 @@ pub enum CircuitWork {
     Gates(usize),
     /// The circuit's gates are exported.
     Export,
+}
+
+impl CircuitWork {
+    /// Runs gates on this number of threads; one for each core if `None`.
+    pub fn gates(threads: Option<NonZeroUsize>) -> Self {
+        let cores = || available_parallelism().map_or(1, NonZeroUsize::get);
+        Self::Gates(threads.map_or_else(cores, NonZeroUsize::get))
+    }
 }
 
 /// Formats bytes, in the largest unit of which there is at least one.
@@ -190,44 +205,74 @@ impl Memory {
         self.check("merging these parts", 2.0 * bytes as f64, lower)
     }
 
-    /// Checks that the circuits of a plan fit into the budget, if the scene asks for an accuracy.
+    /// Checks that `machines` sparse state vectors fit into the budget at a time, each of a circuit of `qubits`
+    /// qubits of which `superposed` are in superposition.
     ///
     /// # Errors
     /// If they do not fit.
-    pub fn keep_plan(self, scene: &ValidScene) -> Result<Option<CircuitSize>, MemoryError> {
-        match scene.scene().accuracy {
-            Some(_) => self.keep_circuit(scene, CircuitWork::Program),
-            None => Ok(None),
-        }
+    pub fn keep_states(
+        self,
+        qubits: u32,
+        superposed: u32,
+        machines: usize,
+    ) -> Result<(), MemoryError> {
+        let words = f64::from(qubits.div_ceil(64));
+        let state = OF_STATE + 2.0 * 8.0 * words;
+        let what = format!("the amplitudes of {superposed} qubits in superposition, of {qubits}");
+        let lower =
+            "lower `sampling.path_bits`, `comparator.bits` or the phase bits, or use fewer threads";
+        self.check(
+            &what,
+            machines as f64 * state * f64::from(superposed).exp2(),
+            lower,
+        )
     }
 
-    /// Checks that the oracle's circuit, which grows with the number of the scene's faces, fits
-    /// into the budget. Returns its estimated size if the scene has a circuit, and if an estimate
-    /// takes less time than compiling the circuit.
+    /// Checks, before a scene's circuit is compiled, that the least size that it may have fits into
+    /// the budget. The size of a circuit grows with the number of the scene's faces and rays. The
+    /// compiled circuit is checked by [`Memory::keep_circuit`].
+    ///
+    /// # Errors
+    /// If it does not fit.
+    pub fn keep_compiling(self, scene: &ValidScene) -> Result<(), MemoryError> {
+        if Self::compiles_at_once(scene) {
+            return Ok(());
+        }
+        let least = CircuitSize::expected(scene).scaled(LEAST);
+        self.keep_circuit(scene, &least, CircuitWork::Program)
+    }
+
+    /// True if a scene's circuit is compiled without an estimate before it.
+    pub(crate) fn compiles_at_once(scene: &ValidScene) -> bool {
+        expected_operations(scene) <= FEW_OPERATIONS
+    }
+
+    /// Checks that work on a scene's circuit fits into the budget.
     ///
     /// # Errors
     /// If it does not fit.
     pub fn keep_circuit(
         self,
         scene: &ValidScene,
+        size: &CircuitSize,
         work: CircuitWork,
-    ) -> Result<Option<CircuitSize>, MemoryError> {
-        if expected_operations(scene) <= FEW_OPERATIONS {
-            return Ok(None);
-        }
-        // If the scene has no circuit, compiling the whole scene reports why, with the place.
-        let Some(whole) = CircuitSize::estimated(scene) else {
-            return Ok(None);
-        };
-        let (faces, rays) = (scene.polygons().len(), scene.scene().sampling.depths.len());
+    ) -> Result<(), MemoryError> {
+        let (faces, rays) = (
+            scene.surface_of_faces().len(),
+            scene.scene().sampling.depths.len(),
+        );
         let what = format!("the circuit of a scene of {faces} faces and paths of {rays} rays");
         let lower = "use a coarser mesh, or fewer rays";
-        self.check(&what, whole.bytes(work), lower)?;
-        Ok(Some(whole))
+        self.check(&what, size.bytes(work), lower)
     }
 }
 
-/// A rough number of operations of a scene's program, accurate enough to recognize small programs.
+/// Returns the expected time of compiling a scene's circuit and counting its gates, in seconds.
+pub fn compiling_seconds(scene: &ValidScene) -> f64 {
+    expected_operations(scene) / COMPILED
+}
+
+/// The expected number of operations of a scene's program.
 fn expected_operations(scene: &ValidScene) -> f64 {
     let nodes = |scatter: &Scatter| match scatter {
         Scatter::Custom(bsdf) => {
@@ -238,16 +283,16 @@ fn expected_operations(scene: &ValidScene) -> f64 {
         _ => 0.0,
     };
     let mut used = vec![false; scene.surfaces().len()];
-    for polygon in scene.polygons() {
-        used[polygon.surface as usize] = true;
+    for surface in scene.surface_of_faces() {
+        used[surface as usize] = true;
     }
     let surfaces = scene.surfaces().iter().zip(used).filter(|(_, used)| *used);
     let nodes: f64 = surfaces.map(|(surface, _)| nodes(&surface.scatter)).sum();
     let rays = scene.scene().sampling.depths.len() as f64;
-    rays * (OF_RAY_AND_FACE * scene.polygons().len() as f64 + OF_NODE * nodes)
+    rays * (OF_RAY_AND_FACE * scene.surface_of_faces().len() as f64 + OF_NODE * nodes)
 }
 
-/// The size of a circuit, and the time to compile it.
+/// The size of a circuit.
 #[derive(Clone, Copy, Debug)]
 pub struct CircuitSize {
     /// Operations of the program.
@@ -258,67 +303,55 @@ pub struct CircuitSize {
     pub bits: f64,
     /// Gates of compute and uncompute.
     pub gates: f64,
-    /// Wall time to compile the circuit and generate its gates, in seconds.
-    pub seconds: f64,
 }
 
 impl CircuitSize {
-    /// The size of a scene's oracle, if it has one. For a large oracle, it is extrapolated from two
-    /// scenes with fewer faces.
-    pub fn estimated(scene: &ValidScene) -> Option<Self> {
-        let (faces, operations) = (scene.polygons().len(), expected_operations(scene));
-        if operations <= FEW_OPERATIONS || faces <= FEW_FACES {
-            return Self::of_rays(scene);
-        }
-        let most = (FEW_OPERATIONS / operations * faces as f64) as usize;
-        let more = most.clamp(FEW_FACES, PARTS[1]);
-        let few = PARTS[0].min(more / 2);
-        let share = (faces - few) as f64 / (more - few) as f64;
-        let [few, more] = [few, more].map(|faces| Self::of_rays(&scene.thinned(faces)));
-        Some(few?.towards(&more?, share))
-    }
-
-    /// The size of a scene's oracle, if it has one. For a large oracle of few faces, it is
-    /// extrapolated from two scenes with fewer rays.
-    fn of_rays(scene: &ValidScene) -> Option<Self> {
-        let rays = scene.scene().sampling.depths.len();
-        if expected_operations(scene) <= FEW_OPERATIONS || rays <= RAYS[1] {
-            return Self::compiled(scene);
-        }
-        let share = (rays - RAYS[0]) as f64 / (RAYS[1] - RAYS[0]) as f64;
-        let [few, more] = RAYS.map(|rays| Self::compiled(&scene.with_rays(rays)));
-        Some(few?.towards(&more?, share))
-    }
-
-    /// The size of a scene's oracle, if it has one, by compiling the oracle.
-    fn compiled(scene: &ValidScene) -> Option<Self> {
-        let start = Instant::now();
-        let program = Oracle::rgb(scene, Options::default()).ok()?.program;
-        let mut gates = 0.0;
-        let qubits = lower::each_instruction(&program, |next, _| gates += 2.0 * next.len() as f64);
-        let bits = program
-            .registers
-            .iter()
-            .map(|register| f64::from(register.width));
-        Some(Self {
-            operations: program.ops.len() as f64,
-            qubits: f64::from(qubits),
-            bits: bits.sum(),
-            gates,
-            seconds: start.elapsed().as_secs_f64(),
-        })
-    }
-
-    /// Extrapolates along the line from `self` (`share` 0) through the larger `other` (`share` 1).
-    /// `share` is 1 or more.
-    fn towards(&self, other: &Self, share: f64) -> Self {
-        let line = |from: f64, to: f64| (from + (to - from) * share).max(to);
+    /// The size of an oracle's circuit, without the comparisons of its channels.
+    pub fn new(oracle: &Oracle) -> Self {
+        let program = &oracle.program;
+        let ops: Vec<_> = program.ops.iter().collect();
+        let width = |register| program.width(register);
+        let figures = lower::KnownFigures::default().all(&ops, width, Cores::All);
+        let steps = program.instructions.iter();
+        let costs = steps.map(|step| {
+            let costs = figures[step.op as usize].costs;
+            costs[usize::from(step.inverse)]
+        });
+        let Cost {
+            toffoli, cnot, x, ..
+        } = costs.sum();
+        let widths = program.registers.iter();
         Self {
-            operations: line(self.operations, other.operations),
-            qubits: line(self.qubits, other.qubits),
-            bits: line(self.bits, other.bits),
-            gates: line(self.gates, other.gates),
-            seconds: line(self.seconds, other.seconds),
+            operations: program.ops.len() as f64,
+            qubits: f64::from(lower::most_qubits_by(program, |op| figures[op].borrowed)),
+            bits: widths.map(|register| f64::from(register.width)).sum(),
+            gates: 2.0 * (toffoli + cnot + x) as f64,
+        }
+    }
+
+    /// The expected size of a scene's circuit, by the numbers of its faces, its rays and the nodes of
+    /// its user-defined BSDFs. Gates are not estimated: no work before compiling depends on them.
+    fn expected(scene: &ValidScene) -> Self {
+        let operations = expected_operations(scene);
+        let qubits = match scene.scene().circuit.uncompute {
+            // `auto` compiles under `keep` first.
+            Uncompute::Keep | Uncompute::Auto => KEPT_QUBITS,
+            _ => FREED_QUBITS,
+        };
+        Self {
+            operations,
+            qubits: qubits * operations,
+            bits: KEPT_QUBITS * operations,
+            gates: 0.0,
+        }
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        Self {
+            operations: factor * self.operations,
+            qubits: factor * self.qubits,
+            bits: factor * self.bits,
+            gates: factor * self.gates,
         }
     }
 
@@ -357,6 +390,7 @@ impl CircuitSize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use qrt_core::oracle::OracleOptions;
 
     /// A tunnel of `quads` quads and `quads` triangles of one material and a lamp, with paths of
     /// `rays` rays.
@@ -386,29 +420,37 @@ geometry:
         loaded.unwrap_or_else(|report| panic!("{report}")).valid
     }
 
+    fn compiled(scene: &ValidScene) -> CircuitSize {
+        CircuitSize::new(&Oracle::rgb(scene, OracleOptions::default()).unwrap())
+    }
+
     #[test]
-    fn a_large_circuit_is_estimated_from_parts_of_its_scene() {
+    fn the_size_of_a_large_circuit_is_expected() {
         let grey = "lambertian: { albedo: [0.5, 0.4, 0.3] }";
         let own = r#"bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"], jacobian: auto,
             value: ["0.1*cos_a^2/(1 + cos_o*cos_o) + 0.05*sqrt(1 + cos_i*cos_o)"] }"#;
         for (material, quads, rays) in [(grey, 20, 40), (grey, 300, 3), (own, 20, 40)] {
             let scene = tunnel(material, quads, rays);
-            let about = expected_operations(&scene);
-            assert!(about > FEW_OPERATIONS, "{about}");
-            let (told, real) = (
-                CircuitSize::estimated(&scene).unwrap(),
-                CircuitSize::compiled(&scene).unwrap(),
-            );
-            println!("{quads} quads, {rays} rays: {about}, {told:?}, {real:?}");
-            for (told, real) in [
-                (told.operations, real.operations),
-                (told.qubits, real.qubits),
-                (told.bits, real.bits),
-                (told.gates, real.gates),
-            ] {
-                assert!(told > 0.8 * real && told < 1.25 * real, "{told} of {real}");
-            }
+            let (expected, real) = (CircuitSize::expected(&scene), compiled(&scene));
+            println!("{quads} quads, {rays} rays: {expected:?}, {real:?}");
+            assert!(expected.operations > FEW_OPERATIONS);
+            let bytes = [expected, real].map(|size| size.bytes(CircuitWork::Program));
+            // Half of the faces lie along the axes.
+            let ratio = bytes[0] / bytes[1];
+            assert!((0.7..1.0 / LEAST).contains(&ratio), "{bytes:?}");
         }
+    }
+
+    /// The gates of a circuit are those that are generated.
+    #[test]
+    fn the_size_of_a_circuit_is_that_of_its_gates() {
+        let scene = tunnel("lambertian: { albedo: [0.5, 0.4, 0.3] }", 2, 2);
+        let oracle = Oracle::rgb(&scene, OracleOptions::default()).unwrap();
+        let mut gates = 0.0;
+        let each = |next: &[_], _| gates += 2.0 * next.len() as f64;
+        let qubits = lower::each_instruction(&oracle.program, each);
+        let size = CircuitSize::new(&oracle);
+        assert_eq!([size.gates, size.qubits], [gates, f64::from(qubits)]);
     }
 
     /// Circuits that are compiled without an estimate are small.
@@ -417,7 +459,7 @@ geometry:
         for (quads, rays) in [(200, 3), (60, 10), (10, 60)] {
             let scene = tunnel("lambertian: { albedo: [0.5, 0.4, 0.3] }", quads, rays);
             assert!(expected_operations(&scene) <= FEW_OPERATIONS);
-            let size = CircuitSize::compiled(&scene).unwrap();
+            let size = compiled(&scene);
             for work in [CircuitWork::Gates(16), CircuitWork::Export] {
                 let bytes = size.bytes(work);
                 println!("{quads} quads, {rays} rays, {work:?}: {bytes:.2e} bytes");

@@ -9,6 +9,7 @@
 //! loop, bit for bit.
 
 mod approach;
+mod balls;
 mod beam;
 mod build;
 mod large;
@@ -17,9 +18,10 @@ mod rays;
 mod walk;
 
 use super::lanes::Lanes;
+use balls::BallPacket;
 use large::LargeFace;
 use packet::Packet;
-use qrt_core::tracer::{Arith, Geometry, Hit, NO_FACE, Nearest, Ray};
+use qrt_core::tracer::{Arith, Hit, NO_FACE, NearestSearch, Ray, StageGeometry};
 use rays::{Ends, FindNearest, FindOccluded, Scratch};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -31,7 +33,7 @@ const WIDE: usize = 8;
 const FACES: usize = 4;
 
 /// Largest number of faces for which a loop over all of them is faster
-/// (`cargo bench --bench tracing`).
+/// (`cargo bench --bench tracing -- speed`).
 pub(crate) const FEW_FACES: usize = 72;
 
 /// Largest number of faces that emit or hide an emitter of their plane for which a path's last ray
@@ -54,9 +56,11 @@ enum Child {
     /// The packet's number, and the main axis of its faces. The axis is stored here so that it is
     /// known before the packet is loaded.
     Packet(u32, u8),
+    /// The number of a packet of spheres.
+    Balls(u32),
 }
 
-/// The hierarchy over the faces of a [`Geometry`].
+/// The hierarchy over the faces of a [`StageGeometry`].
 #[derive(Clone, Debug)]
 pub(crate) struct Bvh {
     /// The large faces, in the order of their ranks.
@@ -69,7 +73,8 @@ pub(crate) struct Bvh {
     /// Number of levels of nodes.
     levels: usize,
     packets: Vec<Packet>,
-    /// By face, in the order of [`Geometry::faces`]: true if it emits.
+    balls: Vec<BallPacket>,
+    /// By face, in the order of [`StageGeometry::faces`], and then by sphere: true if it emits.
     emits: Vec<bool>,
     /// By face: the numbers of the emitting faces on the face's plane, and the first of these that
     /// the face may cover.
@@ -81,10 +86,10 @@ pub(crate) struct Bvh {
 
 impl Bvh {
     /// Builds the hierarchy over all faces of `geometry`.
-    pub(crate) fn new(geometry: &Geometry) -> Self {
+    pub(crate) fn new(geometry: &StageGeometry) -> Self {
         let faces = &geometry.faces;
         let boxes = build::boxes(geometry);
-        let large = large::choose(&boxes);
+        let large = large::choose(&boxes, faces.len());
         let tree = build::tree(&boxes, &build::axes(geometry), &large);
         let place = packet::planes_of_faces(geometry);
         let corners = tree.bounds.as_flattened().iter();
@@ -101,9 +106,18 @@ impl Bvh {
                 .iter()
                 .map(|leaf| Packet::new(geometry, &place, leaf))
                 .collect(),
+            balls: tree
+                .balls
+                .iter()
+                .map(|leaf| BallPacket::new(geometry, leaf))
+                .collect(),
             nodes: tree.nodes,
             levels: tree.levels,
-            emits: faces.iter().map(|face| face.emits).collect(),
+            emits: faces
+                .iter()
+                .map(|face| face.emits)
+                .chain(geometry.balls.iter().map(|ball| ball.emitter.is_some()))
+                .collect(),
             emitters: faces
                 .iter()
                 .zip(&place)
@@ -112,10 +126,16 @@ impl Bvh {
                     let earlier = face.covers.unwrap_or(emitters.len() as u32);
                     (emitters.clone(), emitters.start + earlier)
                 })
+                .chain(geometry.balls.iter().map(|ball| match ball.emitter {
+                    // Nothing of a sphere covers the lamp that it is.
+                    Some(number) => (number..number + 1, number + 1),
+                    None => (0..0, 0),
+                }))
                 .collect(),
             labels: faces
                 .iter()
                 .map(|face| face.label)
+                .chain(geometry.balls.iter().map(|ball| ball.label))
                 .chain([NO_FACE])
                 .collect(),
             few_emitters: faces.iter().filter(|face| face.is_asked_first()).count() <= FEW_EMITTERS,
@@ -125,14 +145,14 @@ impl Bvh {
 
 /// A geometry with its hierarchy.
 pub(crate) struct Indexed<'a> {
-    geometry: &'a Geometry,
+    geometry: &'a StageGeometry,
     bvh: &'a Bvh,
     /// Buffers that successive walks reuse.
     scratch: RefCell<Scratch>,
 }
 
 impl<'a> Indexed<'a> {
-    pub(crate) fn new(geometry: &'a Geometry, bvh: &'a Bvh) -> Self {
+    pub(crate) fn new(geometry: &'a StageGeometry, bvh: &'a Bvh) -> Self {
         Self {
             geometry,
             bvh,
@@ -141,7 +161,7 @@ impl<'a> Indexed<'a> {
     }
 }
 
-impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_> {
+impl<'i, S: pulp::Simd, const W: usize> NearestSearch<Lanes<'i, S, W>> for Indexed<'_> {
     #[inline(always)]
     fn nearest(
         &self,
@@ -167,7 +187,7 @@ impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Indexed<'_>
         ray: &Ray<Lanes<'i, S, W>>,
         wanted: [S::m64s; W],
     ) -> Hit<Lanes<'i, S, W>> {
-        if !self.bvh.few_emitters {
+        if !self.bvh.few_emitters || !self.geometry.balls.is_empty() {
             return self.nearest(cx, ray, wanted);
         }
         let mut hit = self.geometry.nearest_emitter(cx, ray, wanted);
@@ -215,12 +235,12 @@ impl Indexed<'_> {
 #[allow(clippy::large_enum_variant)] // There is one for all rays of a batch.
 pub(crate) enum Faces<'a> {
     /// All faces, in turn.
-    Few(&'a Geometry),
+    Few(&'a StageGeometry),
     /// The faces of the boxes that the ray meets.
     Many(Indexed<'a>),
 }
 
-impl<'i, S: pulp::Simd, const W: usize> Nearest<Lanes<'i, S, W>> for Faces<'_> {
+impl<'i, S: pulp::Simd, const W: usize> NearestSearch<Lanes<'i, S, W>> for Faces<'_> {
     #[inline(always)]
     fn nearest(
         &self,

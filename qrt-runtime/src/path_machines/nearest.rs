@@ -6,11 +6,11 @@
 
 use super::oracle::{Defect, check, name, qubits};
 use super::pool::Pool;
-use qrt_circuit::{Circuit, Operand, Qubit, RegisterId, Word, lower};
+use qrt_circuit::{GateCircuit, Operand, Qubit, RegisterId, Word, lower};
 use qrt_core::oracle::NearestOracle;
-use qrt_machines::Fixed;
-use qrt_machines::Span;
-use qrt_machines::{Gates, Rows};
+use qrt_machines::FixedMachine;
+use qrt_machines::PixelLanes;
+use qrt_machines::{GatesMachine, Rows};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub struct Candidate {
 
 /// The first ray of a path, and the nearest face known for it so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct NearestQuery {
     /// Column and row of the path's pixel.
     pub pixel: [u32; 2],
     /// The path's index.
@@ -60,25 +60,39 @@ impl Answers {
 pub struct NearestMachine {
     oracle: Arc<NearestOracle>,
     seed: u64,
-    machine: Machine,
+    reading: Box<dyn Reading>,
 }
 
-enum Machine {
-    Fixed {
-        fixed: Box<Fixed>,
-        lanes: Pool<qrt_machines::Lanes>,
-    },
-    Gates(Box<GatesCircuit>),
+/// Runs the oracle on blocks of basis states.
+trait Reading: Send + Sync {
+    /// The largest number of basis states of a block.
+    fn lanes(&self) -> usize;
+
+    /// Sets the marks and, unless they are the same everywhere, the distances of a block.
+    fn run(
+        &self,
+        oracle: &NearestOracle,
+        block: &RayBlock,
+        spans: &[PixelLanes<'_>],
+        marks: &mut [bool],
+        distances: &mut [i64],
+    ) -> Result<(), Defect>;
+}
+
+/// The program on lanes of integers.
+struct FixedProgram {
+    fixed: FixedMachine,
+    lanes: Pool<qrt_machines::FixedLanes>,
 }
 
 /// The circuits of compute, flip and uncompute, and the qubits of compute's inputs and distance.
 struct GatesCircuit {
-    gates: Gates,
+    gates: GatesMachine,
     rows: Pool<Rows>,
     /// Qubits by input, as in [`RayBlock::inputs`].
     inputs: [Vec<Qubit>; 4],
     distance: Vec<Qubit>,
-    compute: Circuit,
+    compute: GateCircuit,
 }
 
 /// Basis states, one per lane.
@@ -87,21 +101,21 @@ struct RayBlock {
     /// Contents by input: path index, primitive, and distance and primitive of the nearest so far.
     inputs: [Vec<u64>; 4],
     /// Runs of consecutive lanes that belong to one ray: the ray, and the number of lanes.
-    runs: Vec<(Asked, usize)>,
+    runs: Vec<(NearestQuery, usize)>,
 }
 
 impl NearestMachine {
     /// Creates a fixed machine that runs the oracle.
     pub fn fixed(oracle: Arc<NearestOracle>, seed: u64) -> Self {
         let words: Vec<Word> = oracle.outputs().into_iter().flatten().collect();
-        let fixed = Box::new(Fixed::new(&oracle.program, &words));
+        let reading = Box::new(FixedProgram {
+            fixed: FixedMachine::new(&oracle.program, &words),
+            lanes: Pool::new(),
+        });
         Self {
-            machine: Machine::Fixed {
-                fixed,
-                lanes: Pool::new(),
-            },
             oracle,
             seed,
+            reading,
         }
     }
 
@@ -124,10 +138,10 @@ impl NearestMachine {
     /// As [`NearestMachine::gates`].
     pub fn of_parts(
         oracle: Arc<NearestOracle>,
-        parts: Vec<Circuit>,
+        parts: Vec<GateCircuit>,
         seed: u64,
     ) -> Result<Self, Defect> {
-        let gates = Gates::new(&parts.iter().collect::<Vec<_>>())?;
+        let gates = GatesMachine::new(&parts.iter().collect::<Vec<_>>())?;
         let compute = parts.into_iter().next().unwrap_or_default();
         let held = |register: RegisterId| qubits(&compute, register).to_vec();
         let distance = match oracle.outputs()[0] {
@@ -137,13 +151,13 @@ impl NearestMachine {
             None => Vec::new(),
         };
         Ok(Self {
-            machine: Machine::Gates(Box::new(GatesCircuit {
+            reading: Box::new(GatesCircuit {
                 gates,
                 rows: Pool::new(),
                 inputs: registers(&oracle).map(held),
                 distance,
                 compute,
-            })),
+            }),
             oracle,
             seed,
         })
@@ -158,17 +172,14 @@ impl NearestMachine {
     ///
     /// # Errors
     /// The first defect found.
-    pub fn ask(&self, asked: &[Asked], answers: &mut Answers) -> Result<(), Defect> {
+    pub fn ask(&self, asked: &[NearestQuery], answers: &mut Answers) -> Result<(), Defect> {
         let states = self.oracle.states();
         answers.states = states;
         answers.marks.clear();
         answers.marks.resize(states * asked.len(), false);
         answers.distances.clear();
         answers.distances.resize(states * asked.len(), 0);
-        let most = match &self.machine {
-            Machine::Fixed { .. } => Fixed::LANES,
-            Machine::Gates(circuit) => circuit.gates.lanes(),
-        };
+        let most = self.reading.lanes();
         let mut marks = answers.marks.as_mut_slice();
         let mut distances = answers.distances.as_mut_slice();
         let mut block = RayBlock::default();
@@ -206,60 +217,97 @@ impl NearestMachine {
             .map(|(ray, _)| self.parameter_words(ray))
             .collect();
         let spans = block.runs.iter().zip(&words);
-        let spans = spans.map(|(&(_, lanes), parameters)| Span { lanes, parameters });
-        let spans: Vec<Span<'_>> = spans.collect();
-        let [distance, nearer] = self.oracle.outputs();
-        match &self.machine {
-            Machine::Fixed { fixed, lanes } => {
-                let mut bits = vec![0; marks.len()];
-                let mut wanted: Vec<&mut [i64]> = Vec::new();
-                if distance.is_some() {
-                    wanted.push(distances);
-                }
-                if nearer.is_some() {
-                    wanted.push(&mut bits);
-                }
-                let inputs = block.inputs.each_ref().map(Vec::as_slice);
-                lanes.lend(
-                    || fixed.lanes(),
-                    |own| {
-                        fixed.run(own, &inputs, &spans, &mut wanted);
-                        Ok::<(), Defect>(())
-                    },
-                )?;
-                let inverted = self.oracle.nearer.is_some_and(|bit| bit.inverted);
-                for (mark, bit) in marks.iter_mut().zip(&bits) {
-                    *mark = (*bit == 1) != inverted;
-                }
-                Ok(())
-            }
-            Machine::Gates(circuit) => circuit.rows.lend(
-                || circuit.gates.rows(),
-                |rows| self.through_gates(circuit, rows, block, &spans, marks, distances),
-            ),
-        }
+        let spans = spans.map(|(&(_, lanes), parameters)| PixelLanes { lanes, parameters });
+        let spans: Vec<PixelLanes<'_>> = spans.collect();
+        self.reading
+            .run(&self.oracle, block, &spans, marks, distances)
     }
 
-    fn through_gates(
+    /// The classical parameters of a ray's pixel.
+    fn parameter_words(&self, ray: &NearestQuery) -> Vec<u64> {
+        self.oracle.parameter_words(self.seed, ray.pixel)
+    }
+}
+
+impl Reading for FixedProgram {
+    fn lanes(&self) -> usize {
+        FixedMachine::LANES
+    }
+
+    fn run(
         &self,
-        circuit: &GatesCircuit,
-        rows: &mut Rows,
+        oracle: &NearestOracle,
         block: &RayBlock,
-        spans: &[Span<'_>],
+        spans: &[PixelLanes<'_>],
         marks: &mut [bool],
         distances: &mut [i64],
     ) -> Result<(), Defect> {
-        let gates = &circuit.gates;
+        let [distance, nearer] = oracle.outputs();
+        let mut bits = vec![0; marks.len()];
+        let mut wanted: Vec<&mut [i64]> = Vec::new();
+        if distance.is_some() {
+            wanted.push(distances);
+        }
+        if nearer.is_some() {
+            wanted.push(&mut bits);
+        }
+        let inputs = block.inputs.each_ref().map(Vec::as_slice);
+        self.lanes.lend(
+            || self.fixed.lanes(),
+            |own| {
+                self.fixed.run(own, &inputs, spans, &mut wanted);
+                Ok::<(), Defect>(())
+            },
+        )?;
+        let inverted = oracle.nearer.is_some_and(|bit| bit.inverted);
+        for (mark, bit) in marks.iter_mut().zip(&bits) {
+            *mark = (*bit == 1) != inverted;
+        }
+        Ok(())
+    }
+}
+
+impl Reading for GatesCircuit {
+    fn lanes(&self) -> usize {
+        self.gates.lanes()
+    }
+
+    fn run(
+        &self,
+        oracle: &NearestOracle,
+        block: &RayBlock,
+        spans: &[PixelLanes<'_>],
+        marks: &mut [bool],
+        distances: &mut [i64],
+    ) -> Result<(), Defect> {
+        self.rows.lend(
+            || self.gates.rows(),
+            |rows| self.through_gates(oracle, rows, block, spans, marks, distances),
+        )
+    }
+}
+
+impl GatesCircuit {
+    fn through_gates(
+        &self,
+        oracle: &NearestOracle,
+        rows: &mut Rows,
+        block: &RayBlock,
+        spans: &[PixelLanes<'_>],
+        marks: &mut [bool],
+        distances: &mut [i64],
+    ) -> Result<(), Defect> {
+        let gates = &self.gates;
         rows.clear();
-        let inputs = [0, 1, 2, 3].map(|k| (&circuit.inputs[k][..], &block.inputs[k][..]));
+        let inputs = [0, 1, 2, 3].map(|k| (&self.inputs[k][..], &block.inputs[k][..]));
         for (qubits, contents) in inputs {
             rows.set(qubits, contents);
         }
         rows.set_parameters(spans);
         gates.run(0, rows);
-        if let [Some(word), _] = self.oracle.outputs() {
+        if let [Some(word), _] = oracle.outputs() {
             let mut bits = vec![0; block.lanes()];
-            rows.get(&circuit.distance, &mut bits);
+            rows.get(&self.distance, &mut bits);
             let alone = Word { offset: 0, ..word };
             for (distance, bits) in distances.iter_mut().zip(&bits) {
                 *distance = alone.read(*bits);
@@ -271,17 +319,12 @@ impl NearestMachine {
             *mark = rows.signs()[lane / 64] >> (lane % 64) & 1 == 1;
         }
         let path = |lane| {
-            let Asked { pixel, id, .. } = block.ray(lane);
+            let NearestQuery { pixel, id, .. } = block.ray(lane);
             (pixel, id)
         };
         check(rows, &inputs, path, |qubit| {
-            name(&circuit.compute, &self.oracle.program, qubit)
+            name(&self.compute, &oracle.program, qubit)
         })
-    }
-
-    /// The classical parameters of a ray's pixel.
-    fn parameter_words(&self, ray: &Asked) -> Vec<u64> {
-        self.oracle.parameter_words(self.seed, ray.pixel)
     }
 }
 
@@ -290,7 +333,7 @@ impl RayBlock {
         self.inputs[0].len()
     }
 
-    fn push(&mut self, oracle: &NearestOracle, ray: &Asked, primitives: Range<usize>) {
+    fn push(&mut self, oracle: &NearestOracle, ray: &NearestQuery, primitives: Range<usize>) {
         let (distance, number) = match ray.best {
             Some(best) => (best.distance.cast_unsigned(), u64::from(best.primitive)),
             None => (oracle.t_max, 0),
@@ -310,7 +353,7 @@ impl RayBlock {
     }
 
     /// The ray that a lane belongs to.
-    fn ray(&self, lane: usize) -> Asked {
+    fn ray(&self, lane: usize) -> NearestQuery {
         let mut end = 0;
         let mut runs = self.runs.iter();
         let run = runs.find(|(_, lanes)| {
@@ -318,7 +361,7 @@ impl RayBlock {
             lane < end
         });
         run.map_or(
-            Asked {
+            NearestQuery {
                 pixel: [0, 0],
                 id: 0,
                 best: None,

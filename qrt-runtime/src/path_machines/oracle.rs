@@ -1,5 +1,4 @@
-//! Oracles, run by the fixed machine, as native code or by the gates machine on paths of many
-//! pixels.
+//! Oracles, run by the fixed machine or by the gates machine on paths of many pixels.
 //!
 //! Every machine returns, path by path, the number of thresholds that the path's colour exceeds: of
 //! a path's `2^c` indices, that many are good.
@@ -15,6 +14,7 @@ mod defect;
 mod flips;
 mod parts;
 mod primary_hits;
+mod reading;
 mod through_gates;
 
 pub use defect::Defect;
@@ -23,54 +23,28 @@ pub(super) use parts::{name, qubits};
 pub use primary_hits::{PathRun, PrimaryHits};
 pub(super) use through_gates::check;
 
-use super::native;
-use super::native::NativeOracle;
-use super::pool::Pool;
-use crate::memory::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
-use qrt_circuit::lower::Templates;
 use qrt_circuit::{Operand, Word};
 use qrt_core::oracle::{Channel, LUMINANCE_CHANNEL, Oracle};
-use qrt_machines::Fixed;
-use qrt_machines::InstructionSet;
-use qrt_machines::Span;
-use qrt_machines::{Gates, Rows, Template};
-use std::num::NonZeroUsize;
+use qrt_machines::{InstructionSet, PixelLanes};
+use reading::{FixedReading, Reading};
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, PoisonError};
+use through_gates::GatesReading;
 
 /// An oracle of all three channels, or of one, on a machine.
 pub struct OracleMachine {
-    oracle: Arc<Oracle>,
+    pub(super) oracle: Arc<Oracle>,
     seed: u64,
     primary_hits: Option<Box<dyn PrimaryHits>>,
     /// Operands that are read after each path: the count of each channel, then, if they are wanted,
     /// the colour of each channel, and last the count of the luminance, if the oracle has it.
     outputs: Vec<Operand>,
-    machine: Machine,
-}
-
-enum Machine {
-    Fixed {
-        fixed: Box<Fixed>,
-        lanes: Pool<qrt_machines::Lanes>,
-    },
-    Native {
-        run: fn(InstructionSet, &[native::Run<'_>], &mut [Vec<i64>]),
-        instructions: InstructionSet,
-    },
-    Gates {
-        gates: Box<Gates>,
-        /// `at_once` rows for a block of paths, and at most `room` bytes of templates for
-        /// operations whose gates are not held in memory.
-        rows: Pool<(Vec<Rows>, Templates<Template>)>,
-        at_once: usize,
-        room: usize,
-        parts: Box<OracleCircuits>,
-    },
+    reading: Box<dyn Reading>,
 }
 
 /// A finished run of paths of one pixel: by channel, and path by path in the order of path indices.
+#[derive(Clone, Copy)]
 pub struct Finished<'a> {
     /// Position of the pixel in the caller's list.
     pub pixel: usize,
@@ -103,60 +77,23 @@ impl OracleMachine {
         colours: bool,
     ) -> Self {
         let outputs = outputs(&oracle, colours);
-        let words: Vec<Word> = outputs.iter().filter_map(|o| word_of(*o)).collect();
-        let fixed = Fixed::new(&oracle.program, &words).with_instructions(instructions);
-        let machine = Machine::Fixed {
-            fixed: Box::new(fixed),
-            lanes: Pool::new(),
-        };
-        Self::from_machine(oracle, seed, outputs, machine)
+        let reading = FixedReading::new(&oracle.program, &output_words(&outputs), instructions);
+        Self::with_reading(oracle, seed, outputs, Box::new(reading))
     }
 
-    fn from_machine(
+    fn with_reading(
         oracle: Arc<Oracle>,
         seed: u64,
         outputs: Vec<Operand>,
-        machine: Machine,
+        reading: Box<dyn Reading>,
     ) -> Self {
         Self {
             oracle,
             seed,
             primary_hits: None,
             outputs,
-            machine,
+            reading,
         }
-    }
-
-    /// Creates a native machine, which runs the oracle's program as native code `C` and gives the
-    /// same bits as the fixed machine. The result is the fixed machine itself if there is no code
-    /// ([`NativeOracle::WRITTEN`]). It is also the fixed machine on NEON, for which the fixed
-    /// machine has vectors and the code has none (it has vectors for AVX-512 and AVX2).
-    pub fn native<C: NativeOracle>(oracle: Arc<Oracle>, seed: u64, colours: bool) -> Self {
-        let widest = InstructionSet::widest();
-        if !C::WRITTEN || widest == InstructionSet::Neon {
-            Self::fixed(oracle, seed, colours)
-        } else {
-            Self::native_on::<C>(widest, oracle, seed, colours)
-        }
-    }
-
-    /// Creates a native machine that uses the instruction set `instructions`. There is code for
-    /// AVX-512, for AVX2, and for one path at a time; all other instruction sets use the last.
-    ///
-    /// # Panics
-    /// If there is no code, when the machine runs: see [`NativeOracle::WRITTEN`].
-    pub fn native_on<C: NativeOracle>(
-        instructions: InstructionSet,
-        oracle: Arc<Oracle>,
-        seed: u64,
-        colours: bool,
-    ) -> Self {
-        let outputs = outputs(&oracle, colours);
-        let machine = Machine::Native {
-            run: native::compute_runs::<C>,
-            instructions,
-        };
-        Self::from_machine(oracle, seed, outputs, machine)
     }
 
     /// Creates a gates machine, and tests the block between compute and uncompute for every colour
@@ -180,32 +117,14 @@ impl OracleMachine {
         seed: u64,
         colours: bool,
     ) -> Result<Self, Defect> {
-        let mut circuits = vec![&parts.compute];
-        circuits.extend(&parts.flips);
-        circuits.push(&parts.uncompute);
-        let mut gates = Box::new(Gates::new(&circuits)?);
-        let (mut at_once, mut room) = (1, 0);
-        if parts.streamed.is_some() {
-            let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-            let bytes = bytes_of_rows(threads, parts.compute.qubits);
-            *gates = gates.for_many_rows(bytes);
-            at_once = gates.rows_at_once(bytes);
-            room = bytes_of_templates(threads, parts.compute.qubits);
-        }
-        flips::try_all(&oracle, &parts)?;
+        let reading = GatesReading::new(parts)?;
+        flips::try_all(&oracle, reading.parts())?;
         let outputs = outputs(&oracle, colours);
-        let machine = Machine::Gates {
-            gates,
-            rows: Pool::new(),
-            at_once,
-            room,
-            parts: Box::new(parts),
-        };
-        Ok(Self::from_machine(oracle, seed, outputs, machine))
+        Ok(Self::with_reading(oracle, seed, outputs, Box::new(reading)))
     }
 
     /// Sets the search for primary hits. An oracle needs one if primary hits are its inputs.
-    pub fn with_primary_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
+    pub(crate) fn with_primary_hits(mut self, primary_hits: Box<dyn PrimaryHits>) -> Self {
         self.primary_hits = Some(primary_hits);
         self
     }
@@ -217,18 +136,12 @@ impl OracleMachine {
 
     /// The parts of the circuit, if this is the gates machine.
     pub fn parts(&self) -> Option<&OracleCircuits> {
-        match &self.machine {
-            Machine::Gates { parts, .. } => Some(parts),
-            Machine::Fixed { .. } | Machine::Native { .. } => None,
-        }
+        self.reading.circuits()
     }
 
     /// Number of paths that run together. A multiple of it leaves no lanes idle.
     pub fn paths_at_once(&self) -> u64 {
-        match &self.machine {
-            Machine::Gates { gates, at_once, .. } => (at_once * gates.lanes()) as u64,
-            Machine::Fixed { .. } | Machine::Native { .. } => Gates::LANES as u64,
-        }
+        self.reading.paths_at_once() as u64
     }
 
     /// R, the paths of a pixel.
@@ -266,10 +179,7 @@ impl OracleMachine {
             .iter()
             .map(|&pixel| self.parameter_words(pixel))
             .collect();
-        let most = match &self.machine {
-            Machine::Fixed { .. } | Machine::Native { .. } => Fixed::LANES,
-            Machine::Gates { gates, at_once, .. } => at_once * gates.lanes(),
-        };
+        let most = self.reading.block_length();
         let mut block = OracleBlock {
             ids: Vec::with_capacity(most),
             runs: Vec::new(),
@@ -315,10 +225,7 @@ impl OracleMachine {
         id: u64,
     ) -> Result<Vec<i64>, Defect> {
         self.outputs = words.iter().copied().map(Operand::Word).collect();
-        if let Machine::Fixed { fixed, lanes } = &mut self.machine {
-            **fixed = Fixed::new(&self.oracle.program, words);
-            *lanes = Pool::new();
-        }
+        self.reading.read_words(&self.oracle.program, words);
         let paths = PathRun {
             pixel,
             first: id,
@@ -381,53 +288,16 @@ impl OracleMachine {
         parameters: &[Vec<u64>],
     ) -> Result<(), Defect> {
         self.find_primary_hits(block)?;
-        let spans: Vec<Span<'_>> = block
+        let spans: Vec<PixelLanes<'_>> = block
             .runs
             .iter()
-            .map(|run| Span {
+            .map(|run| PixelLanes {
                 lanes: run.paths.count,
                 parameters: &parameters[run.pixel],
             })
             .collect();
-        match &self.machine {
-            Machine::Fixed { fixed, lanes } => {
-                lanes.lend(
-                    || fixed.lanes(),
-                    |own| {
-                        self.run_fixed(fixed, own, block, &spans);
-                        Ok::<(), Defect>(())
-                    },
-                )?;
-            }
-            Machine::Native { run, instructions } => {
-                let runs = block.runs.iter().map(|run| native::Run {
-                    first: run.paths.first,
-                    count: run.paths.count,
-                    parameters: &parameters[run.pixel],
-                });
-                let runs: Vec<_> = runs.collect();
-                run(*instructions, &runs, &mut block.values);
-            }
-            Machine::Gates {
-                gates,
-                rows,
-                at_once,
-                room,
-                parts,
-            } => {
-                let large = parts.streamed.as_ref();
-                let large = large.filter(|_| parts.compute.qubits > QUBITS_OF_ONE_TURN);
-                let turn = large.map(|streamed| &streamed.turn);
-                let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
-                rows.lend(
-                    || {
-                        let rows = (0..*at_once).map(|_| gates.rows()).collect();
-                        (rows, Templates::with_room(*room))
-                    },
-                    |own| self.run_gates(gates, parts, own, block, (&spans, cancel)),
-                )?;
-            }
-        }
+        self.reading
+            .run(&self.oracle, &self.outputs, block, (&spans, cancel))?;
         self.complete(block)
     }
 
@@ -442,23 +312,6 @@ impl OracleMachine {
         let primary_hits = self.primary_hits.as_ref().ok_or(Defect::PrimaryHits)?;
         block.hits.resize(block.ids.len(), 0);
         primary_hits.find(&runs, &mut block.hits, &mut block.queries)
-    }
-
-    fn run_fixed(
-        &self,
-        fixed: &Fixed,
-        lanes: &mut qrt_machines::Lanes,
-        block: &mut OracleBlock,
-        spans: &[Span<'_>],
-    ) {
-        let count = block.ids.len();
-        let zeros = vec![0; count];
-        let wanted = self.outputs.iter().zip(&mut block.values);
-        let wanted = wanted.filter(|(output, _)| word_of(**output).is_some());
-        let mut wanted: Vec<&mut [i64]> = wanted.map(|(_, values)| &mut values[..count]).collect();
-        let inputs = [&block.ids, &zeros, &block.hits].map(Vec::as_slice);
-        let inputs = &inputs[..2 + usize::from(self.oracle.nearest.is_some())];
-        fixed.run(lanes, inputs, spans, &mut wanted);
     }
 
     /// Fills in the outputs that are constant, and clamps counts to the number of comparator
@@ -542,6 +395,14 @@ fn outputs(oracle: &Oracle, colours: bool) -> Vec<Operand> {
     let colours = rgb.iter().map(|channel| channel.colour).take(wanted);
     let luminance = luminance.iter().map(|channel| channel.count);
     counts.chain(colours).chain(luminance).collect()
+}
+
+/// The registers among `outputs`.
+fn output_words(outputs: &[Operand]) -> Vec<Word> {
+    outputs
+        .iter()
+        .filter_map(|output| word_of(*output))
+        .collect()
 }
 
 fn word_of(operand: Operand) -> Option<Word> {

@@ -5,8 +5,8 @@ use super::lanes::{BLOCK, Inputs, Watched};
 use qrt_core::oracle::paths::{PathFormats, PathNumber, RayNumber};
 use qrt_core::oracle::{Marks, Predicate};
 use qrt_core::tracer::Stage;
-use qrt_machines::Fixed;
-use qrt_machines::Span;
+use qrt_machines::FixedMachine;
+use qrt_machines::PixelLanes;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub(super) type Mark<'a> = Box<dyn FnMut(&Stage<3>, (&Inputs, usize), &mut [[f64
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
     numbers: PathNumbers,
-    program: Fixed,
+    program: FixedMachine,
     marks: Marks,
 }
 
@@ -47,11 +47,13 @@ impl PathNumbers {
         formats: &PathFormats,
         numbers: &[PathNumber],
     ) -> Self {
-        let polygons = scene.polygons().iter();
         Self {
             formats: formats.clone(),
             numbers: numbers.into(),
-            materials: polygons.map(|polygon| polygon.surface + 1).collect(),
+            materials: scene
+                .surface_of_faces()
+                .map(|surface| surface + 1)
+                .collect(),
         }
     }
 
@@ -128,7 +130,7 @@ impl Asked {
     pub(super) fn new(predicate: &Predicate, marks: Marks) -> Self {
         Self {
             numbers: PathNumbers::new(predicate.scene(), predicate.formats(), predicate.numbers()),
-            program: Fixed::new(predicate.program(), &[predicate.good()]),
+            program: FixedMachine::new(predicate.program(), &[predicate.good()]),
             marks,
         }
     }
@@ -140,7 +142,7 @@ impl Asked {
     fn mark(
         &self,
         stage: &Stage<3>,
-        lanes: &mut qrt_machines::Lanes,
+        lanes: &mut qrt_machines::FixedLanes,
         (inputs, count): (&Inputs, usize),
         colours: &mut [[f64; BLOCK]; 3],
     ) {
@@ -161,7 +163,7 @@ impl Asked {
             columns.push(column.collect::<Vec<u64>>());
         }
         let columns: Vec<&[u64]> = columns.iter().map(Vec::as_slice).collect();
-        let span = Span {
+        let span = PixelLanes {
             lanes: count,
             parameters: &[],
         };
@@ -194,4 +196,4 @@ impl Marker for Asked {
     }
 }
 
-const _: () = assert!(BLOCK <= Fixed::LANES);
+const _: () = assert!(BLOCK <= FixedMachine::LANES);

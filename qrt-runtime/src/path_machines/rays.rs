@@ -5,7 +5,7 @@ use super::bvh::{Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes, slots};
 use super::real::WIDTH;
 use pulp::WithSimd;
-use qrt_core::tracer::{Arith, NO_FACE, Nearest, Ray, Start};
+use qrt_core::tracer::{Arith, NO_FACE, NearestSearch, Ray, Start};
 
 /// A ray in stage units.
 #[derive(Clone, Copy, Debug, PartialEq)]

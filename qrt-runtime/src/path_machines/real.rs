@@ -113,9 +113,9 @@ pub struct PathBlock<'a> {
 /// The real machine for one scene.
 #[derive(Clone, Debug)]
 pub struct Real {
-    stage: Stage<3>,
+    pub(super) stage: Stage<3>,
     bvh: Option<Bvh>,
-    points: Points,
+    pub(super) points: Points,
     seed: u64,
     simd: Simd,
     /// Marks the paths that count; `None` if all paths count.
@@ -142,7 +142,8 @@ impl Real {
     ) -> Result<Self, qrt_scene::sampling::SamplingError> {
         let points = Points::Sequence(PathPoints::new(&scene.scene().sampling)?);
         let stage = Stage::rgb(scene, class);
-        let many = stage.geometry().faces.len() > FEW_FACES;
+        let geometry = stage.geometry();
+        let many = geometry.faces.len() + geometry.balls.len() > FEW_FACES;
         Ok(Self {
             bvh: many.then(|| Bvh::new(stage.geometry())),
             stage,
@@ -159,7 +160,7 @@ impl Real {
     ///
     /// # Errors
     /// As [`Real::new`].
-    pub fn of_predicate(
+    pub(crate) fn of_predicate(
         predicate: &Predicate,
         marks: Marks,
         seed: u64,
@@ -181,7 +182,9 @@ impl Real {
         scene: &ValidScene,
         formats: &PathFormats,
         numbers: &[PathNumber],
-        (seed, pixel, id): (u64, [u32; 2], u64),
+        seed: u64,
+        pixel: [u32; 2],
+        id: u64,
     ) -> Result<Vec<f64>, qrt_scene::sampling::SamplingError> {
         let mut real = Self::new(scene, seed)?;
         real.stage = formats.stage(scene, numbers, PixelClass::default());
@@ -331,6 +334,11 @@ impl Real {
         }
     }
 }
+
+/// Number of paths that are traced between two checks for cancellation.
+pub(super) const RUN: u64 = 1 << 16;
+/// The largest number of paths of a pixel that one thread traces.
+pub(super) const UNDIVIDED: u64 = 1 << 18;
 
 struct TraceTask<'a> {
     stage: &'a Stage<3>,

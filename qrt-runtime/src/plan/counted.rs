@@ -2,7 +2,7 @@
 
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
-use crate::sample::{Countable, Drawn, Draws};
+use crate::sample::{Countable, Draws, PixelEstimates};
 use qrt_counting::Octaves;
 use qrt_scene::{Counting, Estimator};
 use std::sync::PoisonError;
@@ -59,7 +59,7 @@ impl Pilot<'_> {
         let found = draws.draw(&self.pixels, &countable)?;
         let by_draw = |draw: usize| {
             let pixels = found.iter().zip(&good).zip(&self.bounds);
-            let off = |((drawn, good), bound): ((&Drawn, &[u64; 3]), &[f64; 3])| {
+            let off = |((drawn, good), bound): ((&PixelEstimates, &[u64; 3]), &[f64; 3])| {
                 std::array::from_fn(|c| {
                     let off = drawn.amplitudes[draw][c] - good[c] as f64 / total as f64;
                     bound[c] * off / self.mean

@@ -1,5 +1,6 @@
 //! The errors of choosing parameters.
 
+use crate::models::MachineError;
 use crate::sample::SampleError;
 use crate::workers::ThreadsError;
 use qrt_counting::CountingError;
@@ -29,6 +30,16 @@ pub enum PlanError {
     /// The threads cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
+}
+
+impl From<MachineError> for PlanError {
+    fn from(error: MachineError) -> Self {
+        match error {
+            MachineError::Sampling(error) => error.into(),
+            MachineError::Defect(defect) => SampleError::from(defect).into(),
+            error => Self::Unreachable(error.to_string()),
+        }
+    }
 }
 
 impl PlanError {

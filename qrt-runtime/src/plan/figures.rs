@@ -7,6 +7,7 @@ use std::fmt;
 
 /// Errors at the requested confidence, in units of the mean radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
 pub struct ErrorParts {
     /// The error of a finite number of paths.
     pub paths: f64,
@@ -22,14 +23,17 @@ pub struct ErrorParts {
 
 /// The parameters that a plan chose, and the errors and costs that it expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figures {
+#[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
+pub struct PlanFigures {
     /// The error and the confidence that the scene asks for.
+    #[cfg_attr(feature = "parts", serde(with = "crate::serialized::AccuracyFields"))]
     pub accuracy: Accuracy,
     /// The mean radiance over channels and the sampled pixels of the picture.
     pub mean: f64,
     /// Number of pixels in the sample, and number of pixels of the film.
     pub pixels: [u64; 2],
     /// The map from path indices to points, as in the scene.
+    #[cfg_attr(feature = "parts", serde(with = "crate::serialized::word"))]
     pub sequence: Sequence,
     /// Chosen: R = 2^path_bits.
     pub path_bits: u32,
@@ -40,6 +44,7 @@ pub struct Figures {
     /// Chosen: C = 2^comparator_bits.
     pub comparator_bits: u32,
     /// The estimator that the plan is for.
+    #[cfg_attr(feature = "parts", serde(with = "crate::serialized::word"))]
     pub estimator: Estimator,
     /// Chosen: T = 2^phase_bits.
     pub phase_bits: u32,
@@ -58,10 +63,11 @@ pub struct Figures {
     pub channel_queries: [f64; 3],
     /// The cost of one call of the most expensive of the scene's oracles; `None` if the scene has
     /// no circuit.
+    #[cfg_attr(feature = "parts", serde(with = "crate::serialized::call_cost"))]
     pub cost: Option<CallCost>,
 }
 
-impl fmt::Display for Figures {
+impl fmt::Display for PlanFigures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Accuracy { error, confidence } = self.accuracy;
         let [pixels, film] = self.pixels.map(grouped);

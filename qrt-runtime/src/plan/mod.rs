@@ -35,7 +35,7 @@ mod search;
 mod together;
 
 pub use error::PlanError;
-pub use figures::{ErrorParts, Figures};
+pub use figures::{ErrorParts, PlanFigures};
 pub use pilot::MOST_TRIED;
 
 use crate::workers::Workers;
@@ -45,8 +45,8 @@ use qrt_scene::valid::ValidScene;
 use qrt_scene::{Counting, Estimator};
 
 /// Options of a plan. Options that are not set follow from the scene.
-#[derive(Clone, Copy, Default)]
-pub struct Options<'a> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PlanOptions<'a> {
     /// The estimator; the default one unless set.
     pub estimator: Option<Estimator>,
     /// Noise of the device that the plan is for.
@@ -61,14 +61,14 @@ pub struct Plan {
     /// The scene with the chosen parameters in place of its accuracy.
     pub scene: ValidScene,
     /// The chosen parameters, and the errors and costs that are expected of them.
-    pub figures: Figures,
+    pub figures: PlanFigures,
 }
 
 /// Chooses the parameters of a scene that asks for an accuracy; `None` for one that doesn't.
 ///
 /// # Errors
 /// See [`PlanError`].
-pub fn plan(scene: &ValidScene, options: &Options<'_>) -> Result<Option<Plan>, PlanError> {
+pub fn plan(scene: &ValidScene, options: &PlanOptions<'_>) -> Result<Option<Plan>, PlanError> {
     let Some(accuracy) = scene.scene().accuracy else {
         return Ok(None);
     };

@@ -1,11 +1,12 @@
 //! Measures the errors on a sample of pixels, part by part.
 
-use super::{Options, PlanError};
-use crate::path_machines::{OracleMachine, Real};
-use crate::sample::{Means, Tally, counted_tallies, prefix_means, radiance, spread, tallies};
+use super::{PlanError, PlanOptions};
+use crate::models::{MachineOptions, Machines, Model, path_machines};
+use crate::path_machines::{PathMachine, Real};
+use crate::sample::{Means, Tally, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
-use qrt_core::oracle::{self, CallCost, Oracle, most_expensive_oracle};
-use qrt_core::tracer::{PixelClass, PixelClasses};
+use qrt_core::oracle::{CallCost, Oracles};
+use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
 use qrt_counting::{Comparators, CountingError, Octaves};
 use qrt_scene::sampling::MAX_PATH_BITS;
@@ -13,7 +14,6 @@ use qrt_scene::valid::{Parameters, ValidScene};
 use qrt_scene::{Accuracy, Comparator, Estimator, Sequence};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 use std::sync::Mutex;
 
 /// Path bits beyond which errors are extrapolated.
@@ -52,9 +52,8 @@ pub(super) struct Pilot<'a> {
     pub(super) pixels: Vec<[u32; 2]>,
     /// Number of runs of an estimator, for every channel and each sign of the paths' error.
     pub(super) draws: u64,
-    classes: PixelClasses,
-    /// The upper bound of a path's colour, by class of pixels and channel.
-    bound_of: [[f64; 3]; 2],
+    /// The upper bound of a path's colour, by class of pixels.
+    bound_of: ByClass<[f64; 3]>,
     /// The upper bound of a path's colour, by pixel and channel.
     pub(super) bounds: Vec<[f64; 3]>,
     pub(super) comparator_bits: u32,
@@ -80,7 +79,7 @@ impl<'a> Pilot<'a> {
         scene: &'a ValidScene,
         accuracy: Accuracy,
         estimator: Estimator,
-        options: &Options<'a>,
+        options: &PlanOptions<'a>,
     ) -> Result<Self, PlanError> {
         let film = [scene.scene().film.width, scene.scene().film.height];
         let failing = 1.0 - accuracy.confidence;
@@ -96,17 +95,9 @@ impl<'a> Pilot<'a> {
             )));
         }
         let workers = options.workers;
-        let classes = PixelClasses::new(scene);
-        let mut bound_of = [[0.0; 3]; 2];
-        for (bound, class) in bound_of.iter_mut().zip(PixelClass::ALL) {
-            *bound = Real::of_class(&of_bits(scene, MEAN.1)?, 0, class)?
-                .stage()
-                .bound();
-        }
-        let bounds: Vec<[f64; 3]> = pixels
-            .iter()
-            .map(|&pixel| bound_of[classes.class(pixel) as usize])
-            .collect();
+        let bound = |machine: Box<dyn PathMachine>| Ok::<_, PlanError>(machine.bounds());
+        let bound_of = real(&of_bits(scene, MEAN.1)?, 0)?.by_class.try_map(bound)?;
+        let bounds: Vec<[f64; 3]> = pixels.iter().map(|&pixel| *bound_of.at(pixel)).collect();
         let mean_of = |key: u64| {
             let machine = Real::new(&net(scene, MEAN.1)?, key)?;
             let means = prefix_means(&machine, &spread(film, MEAN.0), &[MEAN.1], &workers)?;
@@ -125,7 +116,6 @@ impl<'a> Pilot<'a> {
             mean,
             pixels,
             draws,
-            classes,
             bound_of,
             bounds,
             comparator_bits: 0,
@@ -258,21 +248,28 @@ impl<'a> Pilot<'a> {
     /// bits in `bits`.
     fn tallied(&self, bits: RangeInclusive<u32>) -> Result<Vec<Tally>, PlanError> {
         let net = net(self.scene, COMPARED)?;
-        self.classes.apart(&self.pixels, |class, pixels| {
-            let machine = Real::of_class(&net, SHIFTS[0], class)?;
-            let comparators = bits.clone().map(|bits| self.comparators(class, bits));
+        let machines = real(&net, SHIFTS[0])?.by_class;
+        machines.apart(&self.pixels, |machine, pixels| {
+            let comparators = bits.clone().map(|bits| self.comparators(pixels[0], bits));
             let comparators: Vec<_> = comparators.collect::<Result<_, _>>()?;
             let ids = 0..1 << COMPARED;
-            Ok(tallies(&machine, pixels, ids, &comparators, &self.workers)?)
+            Ok(tallies(
+                &**machine,
+                pixels,
+                ids,
+                &comparators,
+                &self.workers,
+            )?)
         })
     }
 
-    fn comparators(&self, class: PixelClass, bits: u32) -> Result<[Comparators; 3], CountingError> {
+    /// The comparators of pixels of the same class as `pixel`.
+    fn comparators(&self, pixel: [u32; 2], bits: u32) -> Result<[Comparators; 3], CountingError> {
         let comparator = Comparator {
             bits,
             ..Comparator::default()
         };
-        Comparators::rgb(self.bound_of[class as usize], comparator)
+        Comparators::rgb(*self.bound_of.at(pixel), comparator)
     }
 
     /// The error of numbers with `fraction` fraction bits, and the cost of a call with
@@ -289,20 +286,28 @@ impl<'a> Pilot<'a> {
         parameters.precision.fraction = Some(fraction);
         parameters.comparator.bits = self.comparator_bits;
         let scene = valid(self.scene, parameters)?;
-        let Ok(most) = most_expensive_oracle(&scene) else {
+        let oracles = Oracles::new(&scene);
+        let Ok(most) = oracles.most_expensive() else {
             return Ok(None);
         };
-        let found = self.classes.apart(&self.pixels, |class, pixels| {
-            let oracle = Oracle::rgb(&scene, oracle::Options::of_class(class))
-                .map_err(|error| unreachable(error.to_string()))?;
-            let machine = OracleMachine::fixed(Arc::new(oracle), SHIFTS[0], false);
+        let options = MachineOptions {
+            model: Model::Fixed,
+            seed: SHIFTS[0],
+            ..MachineOptions::default()
+        };
+        if oracles.assemble_all_channels().is_err() {
+            return Ok(None);
+        }
+        let fixed = path_machines(&oracles, &options)?.by_class;
+        let own = real(&scene, SHIFTS[0])?.by_class;
+        let found = fixed.apart(&self.pixels, |machine, pixels| {
             let paths = machine.paths().min(1 << COMPARED);
-            let own = Real::of_class(&scene, SHIFTS[0], class)?;
-            let comparators = [self.comparators(class, self.comparator_bits)?];
-            let in_real = tallies(&own, pixels, 0..paths, &comparators, &self.workers)?;
-            let in_fixed = counted_tallies(&machine, pixels, 0..paths, &self.workers)?;
+            let own = &**own.at(pixels[0]);
+            let comparators = [self.comparators(pixels[0], self.comparator_bits)?];
+            let in_real = tallies(own, pixels, 0..paths, &comparators, &self.workers)?;
+            let in_fixed = tallies(&**machine, pixels, 0..paths, &comparators, &self.workers)?;
             let ids = (paths << self.comparator_bits) as f64;
-            let bound = self.bound_of[class as usize];
+            let bound = *self.bound_of.at(pixels[0]);
             let value = |tally: &Tally| -> [f64; 3] {
                 std::array::from_fn(|c| bound[c] * (tally.good[0][c] as f64 / ids))
             };
@@ -313,6 +318,15 @@ impl<'a> Pilot<'a> {
         let (a, b): (Means, Means) = found.into_iter().unzip();
         Ok(Some((self.relative(&a, &b, 1.0), most.call)))
     }
+}
+
+/// The machines in floating point.
+fn real(scene: &ValidScene, seed: u64) -> Result<Machines, PlanError> {
+    let options = MachineOptions {
+        seed,
+        ..MachineOptions::default()
+    };
+    Ok(path_machines(&Oracles::new(scene), &options)?)
 }
 
 /// The `level` quantile of the absolute errors.
@@ -361,4 +375,40 @@ pub(super) fn valid(scene: &ValidScene, parameters: Parameters) -> Result<ValidS
         let first = problems.into_iter().next();
         unreachable(first.map_or_else(String::new, |problem| problem.description().message))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use qrt_scene::front::parse;
+
+    /// A wall that a lamp behind the camera lights, and another lamp before it, on the right of the film:
+    /// some pixels may see that one, and others see none.
+    const HALF: &str = "
+name: half
+camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
+film: { width: 4, height: 2 }
+materials:
+  wall: { lambertian: { albedo: [0.5, 0.25, 0.125] } }
+  lamp: { emitter: { radiance: [1, 1, 1] } }
+geometry:
+  - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: wall }
+  - quad: { vertices: [[1, -1, 0.5], [3, -1, 0.5], [3, 1, 0.5], [1, 1, 0.5]], material: lamp }
+  - quad: { vertices: [[-1, -1, 3], [-1, 1, 3], [1, 1, 3], [1, -1, 3]], material: lamp }
+sampling: { depths: [{ bits: [2, 2] }, { bits: [2, 2], light: [2, 2] }] }
+accuracy: { error: 0.2, confidence: 0.8 }
+";
+
+    #[test]
+    fn each_width_that_is_tried_is_compiled_once_for_each_class() {
+        let scene = parse(HALF, "half.yaml", &[], "".as_ref()).unwrap().valid;
+        let accuracy = scene.scene().accuracy.unwrap();
+        let options = PlanOptions::default();
+        let pilot = Pilot::new(&scene, accuracy, Estimator::Sine, &options).unwrap();
+        assert_eq!(scene.recordings(), 0);
+        for tried in 1..3 {
+            assert!(pilot.width(4, 8 + tried).unwrap().is_some());
+            assert_eq!(scene.recordings(), 2 * u64::from(tried));
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::pilot::{Errors, FEWEST, Pilot, quantile, unreachable, valid};
 use super::together::{each_total, failing, will_do};
-use super::{ErrorParts, Figures, Plan, PlanError};
+use super::{ErrorParts, Plan, PlanError, PlanFigures};
 use qrt_core::oracle::{CallCost, DEFAULT_FRACTION};
 use qrt_scene::{Counting, Estimator, Sequence};
 
@@ -136,7 +136,7 @@ fn choose_width(
     path_bits: u32,
     wide: Counted,
 ) -> Result<(Option<Width>, Counted), PlanError> {
-    let many = pilot.scene.polygons().len() > MANY_POLYGONS;
+    let many = pilot.scene.surface_of_faces().len() > MANY_POLYGONS;
     let (first, step) = if many {
         (DEFAULT_FRACTION, 4)
     } else {
@@ -309,7 +309,7 @@ fn finish(
     let film = pilot.scene.scene().film;
     Ok(Plan {
         scene: valid(pilot.scene, parameters)?,
-        figures: Figures {
+        figures: PlanFigures {
             accuracy: pilot.accuracy,
             mean: pilot.mean,
             pixels: [

@@ -1,33 +1,23 @@
 //! Counts the fraction of paths that satisfy a predicate.
 
 use super::check;
-use crate::image::{Image, Window};
-use crate::path_machines::{OracleMachine, Real};
-use crate::render::{Model, Options, RenderError, crop_of};
+use crate::image::{CropWindow, Image};
+use crate::models::{MachineOptions, Model, path_machines};
+use crate::path_machines::QueryCost;
+use crate::render::{RenderError, RenderOptions, crop_of};
 use crate::workers::{Progress, slow_build};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::paths::PathScene;
-use qrt_core::oracle::{self, Marks, PREDICATE_CHANNEL, Predicate};
-use qrt_core::tracer::PixelClass;
-use qrt_counting::estimators::{Device, Estimate, Noise, Problem, Settings};
+use qrt_core::oracle::{Marks, Oracles, PREDICATE_CHANNEL, Predicate};
+use qrt_counting::estimators::{CountingProblem, Device, Estimate, Noise, Settings};
 use qrt_counting::random::Stream;
 use qrt_scene::Estimator;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Number of paths that a job traces without a check for cancellation.
 const RUN: u64 = 1 << 16;
-
-/// The cost of one query of a predicate's oracle: compute, predicate, flip, uncompute.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct QueryCost {
-    /// Toffoli gates.
-    pub toffoli: u64,
-    /// The largest number of qubits in use at any time.
-    pub qubits: u32,
-}
 
 /// The count of good paths of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +32,7 @@ pub struct PixelCount {
 
 /// The count of the paths that satisfy a predicate.
 #[derive(Clone, Debug)]
-pub struct Counted {
+pub struct PredicateCount {
     /// x, y, width and height on the film, in pixels.
     pub crop: [u32; 4],
     /// The film's width and height, in pixels.
@@ -59,7 +49,7 @@ pub struct Counted {
     pub cost: Option<QueryCost>,
 }
 
-impl Counted {
+impl PredicateCount {
     /// The estimated fraction of good paths over all pixels, in [0, 1].
     pub fn fraction(&self) -> f64 {
         self.mean(|estimate| estimate.amplitude)
@@ -101,7 +91,7 @@ impl Counted {
     pub fn image(&self) -> Image {
         let pixels = self.pixels.iter();
         let [x, y, width, height] = self.crop;
-        let window = Window {
+        let window = CropWindow {
             origin: [x, y],
             film: self.film,
         };
@@ -119,43 +109,6 @@ impl Counted {
     }
 }
 
-/// The machine that traces the paths and decides which of them are good.
-enum Machine {
-    Real(Box<Real>),
-    Oracle(OracleMachine),
-}
-
-impl Machine {
-    /// Adds to each pixel's sum the number of its good paths among `ids`.
-    fn add(
-        &self,
-        pixels: &[[u32; 2]],
-        ids: Range<u64>,
-        sums: &mut [u64],
-    ) -> Result<(), RenderError> {
-        match self {
-            Self::Real(real) => {
-                let mut unheld = None;
-                real.trace_range(pixels, ids, |block| {
-                    let good = block.colours[0].iter().sum::<f64>();
-                    if good.is_nan() {
-                        unheld.get_or_insert(pixels[block.pixel]);
-                    }
-                    sums[block.pixel] += good as u64;
-                });
-                unheld.map_or(Ok(()), |pixel| Err(RenderError::Unheld { pixel }))
-            }
-            Self::Oracle(machine) => {
-                machine.trace(pixels, ids, |finished| {
-                    let good = finished.good[0].iter().sum::<i64>();
-                    sums[finished.pixel] += good.cast_unsigned();
-                })?;
-                Ok(())
-            }
-        }
-    }
-}
-
 /// Counts the paths of a scene of `qrt!` that satisfy a predicate, pixel by pixel, as quantum
 /// counting over the predicate's oracle would. Of the number S of good paths among R, the estimator
 /// learns only what its measurements show.
@@ -170,9 +123,9 @@ impl Machine {
 /// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is not a
 /// predicate, and a [`super::PredicateRefusal`] for options that predicates don't support.
 pub fn count_where<S: PathScene>(
-    options: &Options<'_>,
+    options: &RenderOptions<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
-) -> Result<Counted, RenderError> {
+) -> Result<PredicateCount, RenderError> {
     let predicate = Predicate::record::<S>(predicate)?;
     check(&predicate, options)?;
     let scene = predicate.scene();
@@ -180,6 +133,7 @@ pub fn count_where<S: PathScene>(
     if name == Estimator::Exact && options.noise != Noise::NONE {
         return Err(RenderError::NothingNoisy);
     }
+    options.check_predicate(scene)?;
     let crop = crop_of(scene, options)?;
     let [x, y, width, height] = crop;
     let rows = (y..y + height).flat_map(|row| (x..x + width).map(move |column| [column, row]));
@@ -192,7 +146,18 @@ pub fn count_where<S: PathScene>(
             path_bits,
         });
     };
-    let (machine, cost) = machine(&predicate, options)?;
+    let machines = path_machines(
+        &Oracles::new(scene),
+        &MachineOptions {
+            model: options.model(),
+            seed: options.seed,
+            simd: options.simd,
+            predicate: Some((&predicate, Marks::Paths)),
+            ..MachineOptions::default()
+        },
+    )?;
+    let machine = &**machines.by_class.at([x, y]);
+    let cost = machine.query_cost();
     // A job traces several pixels of few paths, or a part of a pixel of many paths.
     let together = (RUN / paths).max(1) as usize;
     let chunks: Vec<&[[u32; 2]]> = pixels.chunks(together).collect();
@@ -214,7 +179,19 @@ pub fn count_where<S: PathScene>(
                 let ids = first..(first + RUN).min(paths);
                 let mut sums = vec![0; pixels.len()];
                 let done = (ids.end - ids.start) * pixels.len() as u64;
-                machine.add(pixels, ids, &mut sums)?;
+                let mut unheld = None;
+                machine.trace_paths(None, pixels, ids, &mut |traced| {
+                    let pixel = traced.pixel();
+                    match traced.marked() {
+                        Some(good) => sums[pixel] += good,
+                        None => {
+                            unheld.get_or_insert(pixels[pixel]);
+                        }
+                    }
+                })?;
+                if let Some(pixel) = unheld {
+                    return Err(RenderError::Unheld { pixel });
+                }
                 finished.fetch_add(done, Ordering::Relaxed);
                 workers.report(Progress::Finished(done));
                 Ok(sums)
@@ -238,7 +215,7 @@ pub fn count_where<S: PathScene>(
     let estimated = pixels.into_iter().zip(good).map(|(pixel, good)| {
         let channel = PREDICATE_CHANNEL as u8;
         let mut stream = Stream::new(options.seed, pixel[0], pixel[1], channel);
-        let problem = Problem { good, total: paths };
+        let problem = CountingProblem { good, total: paths };
         let mut device = Device::new(problem, options.noise, &mut stream)?;
         Ok(PixelCount {
             pixel,
@@ -247,37 +224,13 @@ pub fn count_where<S: PathScene>(
         })
     });
     let film = scene.scene().film;
-    Ok(Counted {
+    Ok(PredicateCount {
         crop,
         film: [film.width, film.height],
         pixels: estimated.collect::<Result<_, RenderError>>()?,
         paths,
-        model: options.model,
+        model: options.model(),
         estimator: name,
         cost,
     })
-}
-
-/// Creates the machine that traces the paths, with the cost of a query of its circuit.
-fn machine(
-    predicate: &Predicate,
-    options: &Options<'_>,
-) -> Result<(Machine, Option<QueryCost>), RenderError> {
-    let seed = options.seed;
-    if options.model == Model::Real {
-        let class = PixelClass::default();
-        let real = Real::of_predicate(predicate, Marks::Paths, seed, class)?;
-        return Ok((Machine::Real(Box::new(real.with_simd(options.simd))), None));
-    }
-    let oracle = predicate.oracle(Marks::Paths, oracle::Options::default())?;
-    let (cost, qubits) = oracle.cost(0);
-    let cost = QueryCost {
-        toffoli: cost.toffoli,
-        qubits,
-    };
-    let machine = match options.model {
-        Model::Gates => OracleMachine::gates(oracle.into(), seed, false)?,
-        _ => OracleMachine::fixed(oracle.into(), seed, false),
-    };
-    Ok((Machine::Oracle(machine), Some(cost)))
 }

@@ -15,19 +15,23 @@
 mod count;
 mod path;
 
-pub use count::{Counted, PixelCount, QueryCost, count_where};
+pub use count::{PixelCount, PredicateCount, count_where};
 pub use path::{TracedHit, TracedPath, TracedRay, trace_path, trace_path_of};
 
+pub use crate::path_machines::QueryCost;
 pub use crate::render::PredicateRefusal;
 
-use crate::render::{Colour, Options, RenderError, Rendered, Visibility, render_predicate};
+use crate::render::{Colour, RenderError, RenderOptions, Rendered, Visibility, render_predicate};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
 use qrt_core::oracle::Predicate;
 use qrt_core::oracle::paths::PathScene;
 
 /// Checks that `options` and the scene are supported with a predicate.
-pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), PredicateRefusal> {
+pub(crate) fn check(
+    predicate: &Predicate,
+    options: &RenderOptions<'_>,
+) -> Result<(), PredicateRefusal> {
     if predicate.scene().scene().accuracy.is_some() {
         return Err(PredicateRefusal::Accuracy);
     }
@@ -53,7 +57,7 @@ pub(crate) fn check(predicate: &Predicate, options: &Options<'_>) -> Result<(), 
 /// As [`crate::render::render`]; a [`qrt_core::oracle::PredicateError`] if the code is not a
 /// predicate, and a [`PredicateRefusal`] for options that predicates don't support.
 pub fn render_where<S: PathScene>(
-    options: &Options<'_>,
+    options: &RenderOptions<'_>,
     predicate: impl FnOnce(&mut Recorder, &S::Path, &mut Reg<Recorded, Bool>),
 ) -> Result<Rendered, RenderError> {
     let predicate = Predicate::record::<S>(predicate)?;

@@ -1,7 +1,8 @@
 //! One path of a scene, in the scene's units.
 
-use crate::path_machines::{OracleMachine, Real};
-use crate::render::{Model, RenderError};
+use crate::models::{Model, oracle_machine};
+use crate::path_machines::Real;
+use crate::render::RenderError;
 use qrt_circuit::Word;
 use qrt_core::oracle::paths::{PathFormats, PathNumber, PathScene, RayNumber};
 use qrt_core::oracle::{Oracle, PredicateError};
@@ -70,7 +71,7 @@ impl fmt::Display for TracedPath<'_> {
 
 /// Traces path `id` of pixel (column, row) of a scene of `qrt!`, and returns every number of it
 /// that predicates can read, in the scene's units. `seed` keys the shifts of the digital net, as in
-/// [`crate::render::Options`].
+/// [`crate::render::RenderOptions`].
 ///
 /// Under [`Model::Fixed`] and [`Model::Gates`], the numbers are the contents of the registers that
 /// predicates read. Under [`Model::Real`], they are the tracer's, before rounding to these
@@ -113,19 +114,14 @@ pub fn trace_path_of(
     let formats = PathFormats::new(scene).ok_or(PredicateError::TooLarge)?;
     let numbers = formats.numbers();
     let values = if model == Model::Real {
-        Real::path(scene, &formats, &numbers, (seed, pixel, id))?
+        Real::path(scene, &formats, &numbers, seed, pixel, id)?
     } else {
         let (oracle, registers) = Oracle::of_numbers(scene, &formats, &numbers)?;
         let words: Vec<Word> = registers
             .iter()
             .map(|&register| Word::unsigned(register, 0, oracle.program.width(register)))
             .collect();
-        let oracle = Arc::new(oracle);
-        let machine = if model == Model::Gates {
-            OracleMachine::gates(oracle, seed, false)?
-        } else {
-            OracleMachine::fixed(oracle, seed, false)
-        };
+        let machine = oracle_machine(model, Arc::new(oracle), seed, false)?;
         let read = machine.read(&words, pixel, id)?.into_iter();
         let of = numbers.iter().map(|&number| formats.format(number));
         of.zip(read)

@@ -4,60 +4,35 @@ use super::parts::Parts;
 use super::pixel::Pixels;
 use super::stop::Stop;
 use super::totals::Totals;
-use super::{RenderError, Request, Searched};
 use crate::workers::Workers;
-use qrt_core::tracer::{PixelClass, PixelClasses};
+use qrt_core::tracer::{ByClass, PixelClass, PixelClasses};
 
 /// For each class, the machine that traces its pixels and the estimator that counts them.
-pub(super) struct Classes {
-    of: PixelClasses,
-    pixels: Vec<(PixelClass, Pixels)>,
-}
+pub(super) struct Classes(ByClass<Pixels>);
 
 impl Classes {
-    /// Creates an entry for each class of the scene. Also returns the search for primary hits, if
-    /// any.
-    pub(super) fn new(request: &Request<'_>) -> Result<(Self, Option<Searched>), RenderError> {
-        let of = PixelClasses::new(request.scene);
-        let mut pixels = Vec::new();
-        let mut searched = None;
-        for &class in of.present() {
-            let (source, found) = request.source(class)?;
-            pixels.push((class, request.pixels(source)?));
-            searched = found;
-        }
-        Ok((Self { of, pixels }, searched))
-    }
-
-    /// Creates a single entry for all pixels.
-    pub(super) fn one(pixels: Pixels) -> Self {
-        Self {
-            of: PixelClasses::one(),
-            pixels: vec![(PixelClass::default(), pixels)],
-        }
+    pub(super) fn new(pixels: ByClass<Pixels>) -> Self {
+        Self(pixels)
     }
 
     /// Returns the entry for the class of a pixel.
     pub(super) fn at(&self, pixel: [u32; 2]) -> &Pixels {
-        let class = self.of.class(pixel);
-        let mut pixels = self.pixels.iter();
-        let found = pixels.find(|(of, _)| *of == class);
-        // There is an entry for each class of the scene's pixels.
-        &found.unwrap_or(&self.pixels[0]).1
+        self.0.at(pixel)
     }
 
     /// Returns the colour scale of each pixel.
     pub(super) fn scales(&self) -> Scales {
-        let of = |(class, pixels): &(PixelClass, Pixels)| (*class, pixels.bound());
+        let (of, pixels) = self.0.parts();
+        let bound = |(class, pixels): &(PixelClass, Pixels)| (*class, pixels.bound());
         Scales {
-            of: self.of.clone(),
-            bounds: self.pixels.iter().map(of).collect(),
+            of: of.clone(),
+            bounds: pixels.iter().map(bound).collect(),
         }
     }
 
     /// Returns whether pixels are traced one by one: see [`Pixels::splits`].
     pub(super) fn splits(&self) -> bool {
-        self.pixels.iter().any(|(_, pixels)| pixels.splits())
+        self.0.values().any(Pixels::splits)
     }
 
     /// Adds the totals of all paths of `places`, pixels of few paths: see [`Pixels::trace_group`].
@@ -68,11 +43,9 @@ impl Classes {
         workers: &Workers<'_>,
         kept: &Parts<'_>,
     ) -> Result<(), Stop> {
-        self.pixels.iter().try_for_each(|(class, pixels)| {
-            let mine = (0..places.len()).filter(|&n| self.of.class(places[n]) == *class);
-            let mine: Vec<usize> = mine.collect();
-            pixels.trace_group(places, &mine, totals, workers, kept)
-        })
+        let mut of_classes = self.0.places(places);
+        of_classes
+            .try_for_each(|(pixels, mine)| pixels.trace_group(places, &mine, totals, workers, kept))
     }
 }
 

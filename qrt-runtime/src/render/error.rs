@@ -1,9 +1,12 @@
 //! Errors of rendering a picture.
 
+use super::{Colour, RenderOptions, Visibility};
 use crate::checkpoint::CheckpointError;
 use crate::memory::MemoryError;
+use crate::models::MachineError;
 use crate::path_machines::Defect;
 use crate::plan::PlanError;
+use crate::prepared::{PrepareError, first};
 use crate::search::RoundsError;
 use crate::workers::ThreadsError;
 use qrt_core::oracle::{OracleError, PredicateError};
@@ -12,6 +15,7 @@ use qrt_counting::estimators::EstimatorError;
 use qrt_scene::Estimator;
 use qrt_scene::sampling::SamplingError;
 use qrt_scene::syntax::Problem;
+use qrt_scene::valid::ValidScene;
 use std::path::{Path, PathBuf};
 
 /// An error of rendering a picture.
@@ -239,6 +243,45 @@ pub enum CompiledError {
     Visibility,
 }
 
+impl From<PrepareError> for RenderError {
+    fn from(error: PrepareError) -> Self {
+        match error {
+            PrepareError::Plan(error) => error.into(),
+            PrepareError::WouldNotFit(error) => error.into(),
+            PrepareError::Oracle(error) => error.into(),
+            PrepareError::Budget(problems) => Self::Budget(problems),
+        }
+    }
+}
+
+impl From<MachineError> for RenderError {
+    fn from(error: MachineError) -> Self {
+        match error {
+            MachineError::Sampling(error) => error.into(),
+            MachineError::Oracle(error) => error.into(),
+            MachineError::Defect(error) => error.into(),
+            MachineError::Search(error) => error.into(),
+            MachineError::SearchModel => Self::SearchModel,
+        }
+    }
+}
+
+impl CompiledError {
+    /// Checks that a compiled circuit supports a request.
+    pub(super) fn check(scene: &ValidScene, options: &RenderOptions<'_>) -> Result<(), Self> {
+        if scene.scene().accuracy.is_some() {
+            return Err(Self::Accuracy);
+        }
+        if options.colour == Colour::OneRun {
+            return Err(Self::OneRun);
+        }
+        if options.visibility != Visibility::Classical {
+            return Err(Self::Visibility);
+        }
+        Ok(())
+    }
+}
+
 impl RenderError {
     /// Returns true if the request can't be met, so that another attempt will fail alike; false if
     /// the job failed.
@@ -258,13 +301,6 @@ impl RenderError {
             _ => true,
         }
     }
-}
-
-fn first(problems: &[Problem]) -> String {
-    let first = problems
-        .first()
-        .map(|problem| problem.description().message);
-    first.unwrap_or_default()
 }
 
 fn name(channel: usize) -> &'static str {

@@ -1,16 +1,16 @@
 //! The finished pixels of a picture, and the checkpoint that keeps them.
 
 use super::tiles::{pixels, rows};
-use super::{Options, RenderError};
-use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, Part, Tile};
-use crate::image::{Image, Window};
+use super::{RenderError, RenderOptions};
+use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, PixelPart, Tile};
+use crate::image::{CropWindow, Image};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Parts of pixels, by pixel and number.
-pub(super) type Kept = BTreeMap<([u32; 2], u64), Part>;
+pub(super) type Kept = BTreeMap<([u32; 2], u64), PixelPart>;
 
 /// The finished pixels of a picture, with its checkpoint.
 pub(super) struct Film {
@@ -25,7 +25,7 @@ pub(super) struct Film {
     pub(super) checkpoint: Option<Checkpoint>,
     /// Parts of unfinished pixels that are not in the checkpoint yet, and the time of the last
     /// flush.
-    pending: Vec<Part>,
+    pending: Vec<PixelPart>,
     flushed: Instant,
 }
 
@@ -34,7 +34,7 @@ impl Film {
     /// columns and rows.
     pub(super) fn new(crop: [u32; 4], film: [u32; 2]) -> Result<Self, RenderError> {
         let area = u64::from(crop[2]) * u64::from(crop[3]);
-        let window = Window {
+        let window = CropWindow {
             origin: [crop[0], crop[1]],
             film,
         };
@@ -62,7 +62,7 @@ impl Film {
     /// checkpoint.
     pub(super) fn open(
         &mut self,
-        options: &Options<'_>,
+        options: &RenderOptions<'_>,
         header: impl FnOnce() -> Header,
     ) -> Result<(Vec<bool>, Kept), RenderError> {
         let (mut finished, mut kept) = (Vec::new(), Kept::new());
@@ -98,7 +98,7 @@ impl Film {
     /// Adds the totals of parts of unfinished pixels.
     pub(super) fn keep_parts(
         &mut self,
-        parts: impl IntoIterator<Item = Part>,
+        parts: impl IntoIterator<Item = PixelPart>,
     ) -> Result<(), RenderError> {
         self.pending.extend(parts);
         // Parts arrive every `AT_STAKE`. Half of it here, so that parts which arrive a little early

@@ -3,10 +3,11 @@
 use super::classes::Classes;
 use super::film::{Film, Kept};
 use super::parts::Parts;
+use super::request::Request;
 use super::stop::{Stop, go_on};
 use super::tiles::{self, Tiles};
 use super::totals::Totals;
-use super::{Colour, Model, RenderError, Rendered, Request};
+use super::{Colour, Model, RenderError, Rendered, Visibility};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::{Progress, Workers, slow_build};
 use rayon::prelude::*;
@@ -14,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// The option of a checkpoint that names the portion of the picture.
-pub(super) const PORTION: &str = "tile";
+pub(super) const PORTION: &str = "portion";
 
 /// A picture that is being rendered.
 pub(super) struct Job<'a> {
@@ -91,8 +92,8 @@ impl<'a> Job<'a> {
                     queries: film.queries,
                     widths: film.widths,
                     strata: film.strata,
-                    good: counts_good(options.model, options.colour).then_some(film.good),
-                    model: options.model,
+                    good: counts_good(options.model(), options.colour).then_some(film.good),
+                    model: options.model(),
                     visibility: options.visibility,
                     searched: None,
                     crop,
@@ -216,7 +217,7 @@ fn closed(checkpoint: Option<Checkpoint>) -> Result<bool, CheckpointError> {
 pub(super) fn header(request: &Request<'_>) -> Header {
     let Request { scene, options, .. } = *request;
     let decisive = [
-        ("model", options.model.name().to_owned()),
+        ("model", options.model().name().to_owned()),
         ("estimator", options.estimator_name(request.estimator)),
         ("colour", options.colour.name().to_owned()),
         ("noise", options.noise.to_string()),
@@ -228,7 +229,7 @@ pub(super) fn header(request: &Request<'_>) -> Header {
         scene_hash: scene.fingerprint().to_string(),
         seed: options.seed,
         options: (decisive.into_iter())
-            .chain(options.visibility.written())
+            .chain(written(options.visibility))
             .chain(
                 request
                     .portion
@@ -239,4 +240,19 @@ pub(super) fn header(request: &Request<'_>) -> Header {
         height: scene.scene().film.height,
         crop: request.crop,
     }
+}
+
+/// Returns the entries of the method that finds primary hits, for a picture's metadata or a
+/// checkpoint: none if the tracer finds them.
+pub(super) fn written(visibility: Visibility) -> Vec<(String, String)> {
+    let mut written = Vec::new();
+    let mut say = |key: &str, value: String| written.push((key.to_owned(), value));
+    if visibility != Visibility::Classical {
+        say("visibility", visibility.name().to_owned());
+    }
+    if let Visibility::Grover { failure, guess } = visibility {
+        say("search_failure", failure.to_string());
+        say("first_guess", guess.name().to_owned());
+    }
+    written
 }

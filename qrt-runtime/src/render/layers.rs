@@ -5,7 +5,7 @@ use crate::image::Layer;
 use crate::path_machines::{Real, SingleRay};
 use glam::DVec3;
 use qrt_core::tracer::Start;
-use qrt_scene::valid::ValidScene;
+use qrt_scene::valid::{Polygon, ValidScene};
 
 /// Number of pixels whose primary hits are found at a time.
 const PIXELS: usize = 1 << 12;
@@ -78,7 +78,8 @@ struct FirstHit {
 fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>>, RenderError> {
     let real = Real::new(scene, 0)?;
     let camera = real.stage().camera();
-    let unit = real.stage().geometry().scale;
+    let geometry = real.stage().geometry();
+    let unit = geometry.scale;
     let ray = |[x, y]: [u32; 2]| {
         let across = [f64::from(x) + 0.5, f64::from(y) + 0.5];
         let varying: [f64; 3] = std::array::from_fn(|axis| {
@@ -102,9 +103,15 @@ fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>
         let rays: Vec<SingleRay> = pixels.iter().map(|&pixel| ray(pixel)).collect();
         for (ray, met) in rays.iter().zip(real.nearest(&rays)) {
             hits.push(met.and_then(|met| {
-                let polygon = scene.polygons().get(met.face as usize)?;
-                let [v0, v1, v2, _] = polygon.vertices;
-                let normal = (v1 - v0).cross(v2 - v0).normalize();
+                let face = met.face as usize;
+                let normal = if let Some(Polygon { vertices, .. }) = scene.polygons().get(face) {
+                    let [v0, v1, v2, _] = *vertices;
+                    (v1 - v0).cross(v2 - v0).normalize()
+                } else {
+                    let ball = geometry.balls.get(face - scene.polygons().len())?;
+                    let [start, way] = [ray.origin, ray.direction].map(DVec3::from_array);
+                    (start + way * met.distance - ball.centre).normalize()
+                };
                 let direction = DVec3::from_array(ray.direction);
                 Some(FirstHit {
                     distance: met.distance * direction.length() / unit,
@@ -113,7 +120,7 @@ fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>
                     } else {
                         normal
                     },
-                    material: polygon.surface,
+                    material: scene.surface_of_face(face),
                 })
             }));
         }

@@ -1,11 +1,50 @@
 //! Metadata of a picture: a record of how it was made.
 
 use super::Rendered;
+use super::job::written;
 use super::own::PREFIX;
-use crate::image::{ImageError, Metadata};
+use crate::image::{self, Encoding, ImageError, Metadata, PicturePath};
 use qrt_scene::Estimator;
 
 impl Rendered {
+    /// Writes the picture with its metadata to a file whose name ends in `.png` or `.exr`, all or
+    /// nothing. Returns the number of pixels that PNG clips; [`image::save`] also takes an
+    /// exposure.
+    ///
+    /// ```
+    /// use qrt_scene::front::parse;
+    /// use qrt_runtime::render::{RenderOptions, render};
+    ///
+    /// # let text = "
+    /// # name: sky
+    /// # camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
+    /// # film: { width: 4, height: 2 }
+    /// # materials: { sky: { emitter: { radiance: [0.25, 0.5, 1] } } }
+    /// # geometry:
+    /// #   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: sky }
+    /// # ";
+    /// let scene = parse(text, "sky.yaml", &[], "".as_ref())?.valid;
+    /// let path = std::env::temp_dir().join(format!("qrt-sky-{}.png", std::process::id()));
+    /// render(&scene, &RenderOptions::default())?.save(&path)?;
+    /// # std::fs::remove_file(path)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// See [`ImageError`].
+    #[cfg_attr(
+        not(any(feature = "png", feature = "exr")),
+        allow(
+            clippy::needless_pass_by_value,
+            reason = "no type is a path of a picture then"
+        )
+    )]
+    pub fn save(&self, path: impl PicturePath) -> Result<u64, ImageError> {
+        let path = path.as_ref();
+        let encoding = Encoding::for_name(path, None)?;
+        image::save(path, &self.image, &self.metadata()?, encoding)
+    }
+
     /// Creates the metadata of the picture. It is the same on every run.
     ///
     /// # Errors
@@ -19,7 +58,7 @@ impl Rendered {
         metadata.set("scene", self.scene_name.as_str())?;
         metadata.set("scene_hash", self.scene_hash.as_str())?;
         metadata.set("model", self.model.name())?;
-        for (key, value) in self.visibility.written() {
+        for (key, value) in written(self.visibility) {
             metadata.set(&key, value)?;
         }
         match &self.own_estimator {

@@ -21,7 +21,8 @@
 //! [`Visibility`] chooses how a path's primary hit is found: by the tracer, like all other hits, or
 //! path by path with an oracle of nearest hits. The queries of that oracle are then the picture's.
 //!
-//! A scene with an `accuracy` is rendered with the parameters that [`crate::plan`] chooses for it.
+//! A scene with an `accuracy` is rendered with the parameters that [`crate::plan`] chooses for it:
+//! [`Prepared`].
 //!
 //! # Reproducibility
 //!
@@ -32,7 +33,7 @@
 //!
 //! ```
 //! use qrt_scene::front::parse;
-//! use qrt_runtime::render::{Options, render};
+//! use qrt_runtime::render::{RenderOptions, render};
 //! let text = "
 //! name: sky
 //! camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
@@ -43,12 +44,11 @@
 //! counting: { estimator: exact }
 //! ";
 //! let scene = parse(text, "sky.yaml", &[], "".as_ref())?;
-//! let rendered = render(&scene.valid, &Options::default())?;
+//! let rendered = render(&scene.valid, &RenderOptions::default())?;
 //! assert_eq!(rendered.image.pixels, [[0.25, 0.5, 1.0]; 8]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod allowed;
 mod classes;
 mod error;
 mod film;
@@ -58,60 +58,51 @@ mod metadata;
 mod one_run;
 mod own;
 mod parts;
+#[cfg(feature = "parts")]
 mod picture_part;
 mod pixel;
 mod portion;
-mod source;
+#[cfg(feature = "parts")]
+mod properties;
+mod request;
 mod stop;
 mod tiles;
 mod totals;
-mod visibility;
 
-pub use allowed::check_circuit;
+pub use crate::models::{DEFAULT_FAILURE, Model, Searched, Visibility};
 pub use classes::Scales;
 pub use error::{CompiledError, PredicateRefusal, RenderError, out_of_bounds_advice};
 pub use own::{BoxedEstimator, OwnEstimator};
+#[cfg(feature = "parts")]
 pub use picture_part::{Merge, MergeError, PicturePart, render_part};
 pub use portion::{Portion, PortionError};
-pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
+pub(crate) use request::crop_of;
 
 use crate::checkpoint::Checkpoint;
 use crate::image::{Count, Image};
-use crate::memory::Memory;
+use crate::memory::{CircuitWork, Memory};
+use crate::models::{MachineOptions, Machines, path_machines};
 use crate::named::named;
-use crate::path_machines::{NativeOracle, OracleMachine, Real, Simd};
-use crate::plan::{self, Figures, Plan, plan};
+use crate::path_machines::{OracleMachine, PathMachine, Simd};
+use crate::plan::{self, PlanFigures};
+use crate::prepared::{PrepareError, Prepared};
 use crate::workers::Workers;
 use classes::Classes;
 use job::Job;
-use pixel::Pixels;
-use qrt_core::oracle::{self, Marks, Oracle, OracleError, Predicate};
-use qrt_core::tracer::PixelClass;
+use qrt_core::oracle::compiled::CompiledOracle;
+use qrt_core::oracle::{Marks, OracleError, Oracles, Predicate};
+use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
 use qrt_scene::Estimator;
 use qrt_scene::valid::{Parameters, ValidScene};
-use source::Source;
+use request::Request;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use tiles::Tiles;
-
-named! {
-    /// The machine that traces the paths.
-    #[derive(Default)]
-    pub enum Model {
-        /// The tracer in 64-bit floating point.
-        #[default]
-        Real = "real",
-        /// The oracle's program, operation by operation, on integers.
-        Fixed = "fixed",
-        /// The oracle's circuit, gate by gate: compute, flip, uncompute.
-        Gates = "gates",
-    }
-}
 
 named! {
     /// The method by which a pixel gets its colour.
     #[derive(Default)]
+    #[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
     pub enum Colour {
         /// A run of counting for each channel, as in the paper.
         #[default]
@@ -123,15 +114,16 @@ named! {
 }
 
 /// Options of a render. Options that are not set follow from the scene.
-#[derive(Clone, Default)]
-pub struct Options<'a> {
+#[derive(Clone, Debug, Default)]
+pub struct RenderOptions<'a> {
     /// The key of the shifts of the digital net and of every draw; 0 unless set.
     pub seed: u64,
     /// The part of the film to render: x, y, width and height in pixels, from the film's top left
     /// corner; the whole film unless set.
     pub crop: Option<[u32; 4]>,
-    /// The model that traces the paths.
-    pub model: Model,
+    /// The model that traces the paths. Unless set, [`Model::Real`], or [`Model::Fixed`] for the
+    /// compiled circuit of [`render_compiled`].
+    pub model: Option<Model>,
     /// The estimator, in place of the scene's.
     pub estimator: Option<Estimator>,
     /// A user-defined estimator, in place of all others.
@@ -142,8 +134,6 @@ pub struct Options<'a> {
     pub noise: Noise,
     /// The method that finds primary hits.
     pub visibility: Visibility,
-    /// The plan of a scene with an accuracy; the render makes a plan unless set.
-    pub plan: Option<&'a Plan>,
     /// The threads that do the work, and the callback for progress, in paths.
     pub workers: Workers<'a>,
     /// The memory budget. A render that would exceed it, by an estimate, is refused.
@@ -153,7 +143,7 @@ pub struct Options<'a> {
     /// Width and height of the tiles in pixels; chosen by the number of paths unless set.
     pub tile: Option<[u32; 2]>,
     /// Path of the checkpoint, which keeps finished tiles until the picture is finished; no
-    /// checkpoint unless set. The render does not remove the file: [`render_keeping`] returns the
+    /// checkpoint unless set. The render does not remove the file: [`Prepared::render`] returns the
     /// checkpoint, so that the caller can remove it when the picture is safe.
     pub checkpoint: Option<PathBuf>,
     /// If true, continues from the checkpoint if there is one. If false, the first finished tile
@@ -166,13 +156,79 @@ pub struct Options<'a> {
     pub quiet: bool,
 }
 
-impl<'a> Options<'a> {
+impl<'a> RenderOptions<'a> {
+    /// Returns the model that traces the paths.
+    pub fn model(&self) -> Model {
+        self.model.unwrap_or_default()
+    }
+
     /// Returns the options with which a scene's parameters are chosen for this picture.
-    pub fn planning(&self) -> plan::Options<'a> {
-        plan::Options {
+    pub fn planning(&self) -> plan::PlanOptions<'a> {
+        plan::PlanOptions {
             estimator: self.estimator,
             noise: self.noise,
             workers: self.workers,
+        }
+    }
+
+    /// Returns how a render uses the scene's circuit; `None` for the real model, which runs none.
+    pub fn circuit_work(&self) -> Option<CircuitWork> {
+        match self.model() {
+            Model::Real => None,
+            Model::Fixed => Some(CircuitWork::Program),
+            Model::Gates => Some(CircuitWork::gates(self.workers.threads)),
+        }
+    }
+
+    /// Checks what is known of a request for a picture before its parameters are chosen: its crop is on
+    /// the film, the picture fits into memory, and the estimator fits the other options.
+    ///
+    /// # Errors
+    /// If the request cannot be met.
+    pub fn check(&self, scene: &ValidScene) -> Result<(), RenderError> {
+        let [_, _, width, height] = request::crop_of(scene, self)?;
+        self.memory.keep_picture([width, height])?;
+        if self.own_estimator.is_some() && scene.scene().accuracy.is_some() {
+            return Err(RenderError::OwnAccuracy);
+        }
+        request::estimator(scene.scene(), self).map(|_| ())
+    }
+
+    /// Prepares a scene for a render with these options.
+    ///
+    /// # Errors
+    /// As [`RenderOptions::check`] and [`Prepared::new`].
+    pub fn prepare<'s>(&self, scene: &'s ValidScene) -> Result<Prepared<'s>, RenderError> {
+        self.check(scene)?;
+        let prepared = Prepared::new(scene, &self.planning(), self.memory)?;
+        Ok(if self.colour == Colour::OneRun {
+            prepared.with_luminance()
+        } else {
+            prepared
+        })
+    }
+
+    /// Checks that the picture of a predicate, and the least circuit that it may have, fit into the memory
+    /// budget.
+    pub(crate) fn check_predicate(&self, scene: &ValidScene) -> Result<(), RenderError> {
+        let [_, _, width, height] = request::crop_of(scene, self)?;
+        self.memory.keep_picture([width, height])?;
+        if self.model() != Model::Real {
+            self.memory.keep_compiling(scene)?;
+        }
+        Ok(())
+    }
+
+    /// The machine that traces the paths.
+    fn machine(&self) -> MachineOptions<'static> {
+        MachineOptions {
+            model: self.model(),
+            seed: self.seed,
+            simd: self.simd,
+            visibility: self.visibility,
+            predicate: None,
+            // With one run, the pixel's colour comes from the colours of measured paths.
+            colours: self.colour == Colour::OneRun,
         }
     }
 }
@@ -229,7 +285,7 @@ pub struct Rendered {
     /// The parameters: the scene's own, or those chosen for its accuracy.
     pub parameters: Parameters,
     /// The figures of the plan that chose the parameters, if there was one.
-    pub plan: Option<Figures>,
+    pub plan: Option<PlanFigures>,
     /// The proven bounds on a path's colour, by pixel.
     pub scales: Scales,
     /// N, the number of indices of a pixel's channel: paths times comparators.
@@ -294,99 +350,114 @@ impl Rendered {
 ///
 /// # Errors
 /// See [`RenderError`]. On an interruption, the checkpoint has the finished tiles.
-pub fn render(scene: &ValidScene, options: &Options<'_>) -> Result<Rendered, RenderError> {
-    render_keeping(scene, options).map(without_checkpoint)
+pub fn render(scene: &ValidScene, options: &RenderOptions<'_>) -> Result<Rendered, RenderError> {
+    let rendered = options.prepare(scene)?.render(options);
+    rendered.map(without_checkpoint)
 }
 
-/// As [`render`], but also returns the checkpoint, open and locked, if there is one. No other
-/// process can use it until the caller removes ([`Checkpoint::remove`]) or drops it, when the
-/// picture is safe.
-///
-/// # Errors
-/// As [`render`].
-pub fn render_keeping(
-    scene: &ValidScene,
-    options: &Options<'_>,
-) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
-    let rendered = render_portion(scene, options, None, |_| ());
-    rendered.map(|(rendered, (), checkpoint)| (rendered, checkpoint))
-}
-
-/// Renders the pixels of a portion, with all others black; without a portion, the whole picture.
-/// Also returns the result of `told`, which gets the request with the chosen parameters.
-fn render_portion<T>(
-    scene: &ValidScene,
-    options: &Options<'_>,
-    portion: Option<Portion>,
-    told: impl FnOnce(&Request<'_>) -> T,
-) -> Result<(Rendered, T, Option<Checkpoint>), RenderError> {
-    let crop = crop_of(scene, options)?;
-    options.memory.keep_picture([crop[2], crop[3]])?;
-    if options.own_estimator.is_some() && scene.scene().accuracy.is_some() {
-        return Err(RenderError::OwnAccuracy);
+impl Prepared<'_> {
+    /// Renders the scene. Also returns the checkpoint, open and locked, if there is one. No other
+    /// process can use it until the caller removes ([`Checkpoint::remove`]) or drops it, when the
+    /// picture is safe.
+    ///
+    /// # Errors
+    /// As [`render`].
+    pub fn render(
+        &self,
+        options: &RenderOptions<'_>,
+    ) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
+        let request = Request::new(self.scene(), options)?;
+        self.render_request(request)
     }
-    let planned;
-    let chosen = match (scene.scene().accuracy, options.plan) {
-        (None, _) => None,
-        (Some(_), Some(plan)) => Some(plan),
-        (Some(_), None) => {
-            options.memory.keep_plan(scene)?;
-            planned = plan(scene, &options.planning())?;
-            planned.as_ref()
+
+    /// Checks that the circuit that a render with `options` runs fits into the memory budget, and that
+    /// the scene's oracles are within the scene's `budget`. Under [`Model::Real`], which runs no
+    /// circuit, there is nothing to check.
+    ///
+    /// # Errors
+    /// As [`Prepared::check_circuit`].
+    pub fn check_render(&self, options: &RenderOptions<'_>) -> Result<(), PrepareError> {
+        let Some(work) = options.circuit_work() else {
+            return Ok(());
+        };
+        // With a search for primary hits a smaller circuit runs in place of the scene's. If the scene
+        // is small, that one is not compiled only for its size.
+        if options.visibility == Visibility::Classical || !self.compiles_at_once() {
+            self.check_memory([0, 0], work)?;
         }
-    };
-    let traced = chosen.map_or(scene, |plan| &plan.scene);
-    let request = Request {
-        portion,
-        ..Request::new(traced, options, crop)?
-    };
-    if let Some(count) = portion.map(Portion::count)
-        && u64::from(count) > request.area
-    {
-        let pixels = request.area;
-        return Err(RenderError::Portions { count, pixels });
+        self.check_budget()
     }
-    check_circuit(traced, options)?;
-    let (classes, searched) = Classes::new(&request)?;
-    let told = told(&request);
-    let (rendered, checkpoint) = Job::new(request, classes)?.render()?;
-    let rendered = Rendered {
-        scene_hash: scene.fingerprint().to_string(),
-        plan: chosen.map(|plan| plan.figures),
-        searched,
-        ..rendered
-    };
-    Ok((rendered, told, checkpoint))
+
+    /// Renders the pixels that are requested; all others are black.
+    fn render_request(
+        &self,
+        request: Request<'_>,
+    ) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
+        // Colour from one run counts the luminance, which the circuit may not have.
+        let counts_luminance =
+            request.options.colour == Colour::OneRun && request.options.model() != Model::Real;
+        let luminant = counts_luminance.then(|| self.made_luminant()).flatten();
+        let prepared = luminant.as_ref().unwrap_or(self);
+        prepared.check_render(request.options)?;
+        let machines = prepared.machines(&request.options.machine())?;
+        drop(luminant);
+        let (rendered, checkpoint) = trace(request, machines)?;
+        let rendered = Rendered {
+            scene_hash: self.scene_hash().to_owned(),
+            plan: self.plan().copied(),
+            ..rendered
+        };
+        Ok((rendered, checkpoint))
+    }
+}
+
+/// Traces and counts the requested pixels, each by the machine of its class.
+fn trace(
+    request: Request<'_>,
+    machines: Machines,
+) -> Result<(Rendered, Option<Checkpoint>), RenderError> {
+    let pixels = machines
+        .by_class
+        .try_map(|machine| request.pixels(machine))?;
+    let job = Job::new(request, Classes::new(pixels))?;
+    let (rendered, checkpoint) = job.render()?;
+    let searched = machines.searched;
+    Ok((
+        Rendered {
+            searched,
+            ..rendered
+        },
+        checkpoint,
+    ))
 }
 
 /// Renders a scene of `qrt!` with the circuit that was compiled with it. The picture is the same as
-/// [`render`]'s, but the circuit is not built again. Under [`Model::Fixed`] it runs as native code:
-/// see [`OracleMachine::native`].
+/// [`render`]'s, but the circuit is not built again. The model is [`Model::Fixed`] unless set.
 ///
 /// # Errors
 /// As [`render`]; and a [`CompiledError`] if that circuit does not support the request, or under
-/// [`Model::Real`], the default, which does not run it.
-pub fn render_compiled<C: NativeOracle>(options: &Options<'_>) -> Result<Rendered, RenderError> {
-    let scene = C::scene();
-    if scene.scene().accuracy.is_some() {
-        return Err(CompiledError::Accuracy.into());
-    }
-    if options.colour == Colour::OneRun {
-        return Err(CompiledError::OneRun.into());
-    }
-    if options.visibility != Visibility::Classical {
-        return Err(CompiledError::Visibility.into());
-    }
-    let request = Request::new(scene, options, crop_of(scene, options)?)?;
+/// [`Model::Real`], which does not run it.
+pub fn render_compiled<C: CompiledOracle>(
+    options: &RenderOptions<'_>,
+) -> Result<Rendered, RenderError> {
+    let options = &RenderOptions {
+        model: options.model.or(Some(Model::Fixed)),
+        ..options.clone()
+    };
+    CompiledError::check(C::scene(), options)?;
+    let request = Request::new(C::scene(), options)?;
     let oracle = C::oracle().map_err(OracleError::from)?.into();
-    let machine = match options.model {
+    let machine = match options.model() {
         Model::Real => return Err(CompiledError::Model.into()),
-        Model::Fixed => OracleMachine::native::<C>(oracle, options.seed, false),
+        Model::Fixed => OracleMachine::fixed(oracle, options.seed, false),
         Model::Gates => OracleMachine::gates(oracle, options.seed, false)?,
     };
-    let pixels = request.pixels(Source::Oracle(machine))?;
-    let job = Job::new(request, Classes::one(pixels))?;
-    job.render().map(without_checkpoint)
+    let machine: Box<dyn PathMachine> = Box::new(machine);
+    let machines = Machines {
+        by_class: ByClass::one(machine),
+        searched: None,
+    };
+    trace(request, machines).map(without_checkpoint)
 }
 
 fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) -> Rendered {
@@ -400,117 +471,14 @@ fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) ->
 /// Renders the light of only those paths that satisfy a predicate.
 pub(crate) fn render_predicate(
     predicate: &Predicate,
-    options: &Options<'_>,
+    options: &RenderOptions<'_>,
 ) -> Result<Rendered, RenderError> {
-    let scene = predicate.scene();
-    let request = Request {
-        predicate: Some(predicate),
-        ..Request::new(scene, options, crop_of(scene, options)?)?
+    let request = Request::new(predicate.scene(), options)?;
+    options.check_predicate(predicate.scene())?;
+    let machine = MachineOptions {
+        predicate: Some((predicate, Marks::Light)),
+        ..options.machine()
     };
-    let (classes, _) = Classes::new(&request)?;
-    Job::new(request, classes)?.render().map(without_checkpoint)
-}
-
-/// A valid request for a picture: its parameters are chosen, and its crop is on the film.
-struct Request<'a> {
-    scene: &'a ValidScene,
-    options: &'a Options<'a>,
-    /// x, y, width and height on the film, in pixels.
-    crop: [u32; 4],
-    estimator: Estimator,
-    /// Number of pixels of the picture.
-    area: u64,
-    /// R, the number of paths of a pixel.
-    paths: u64,
-    /// The predicate that selects paths; `None` for all paths.
-    predicate: Option<&'a Predicate>,
-    /// The portion of the pixels to render; `None` for all.
-    portion: Option<Portion>,
-}
-
-impl<'a> Request<'a> {
-    fn new(
-        scene: &'a ValidScene,
-        options: &'a Options<'a>,
-        crop: [u32; 4],
-    ) -> Result<Self, RenderError> {
-        let path_bits = scene.scene().sampling.path_bits;
-        let request = Self {
-            scene,
-            options,
-            crop,
-            estimator: options.visibility.estimator(options, scene.scene())?,
-            area: u64::from(crop[2]) * u64::from(crop[3]),
-            paths: 1 << path_bits,
-            predicate: None,
-            portion: None,
-        };
-        match request.area.checked_mul(request.paths) {
-            Some(_) => Ok(request),
-            None => Err(RenderError::TooManyPaths {
-                pixels: request.area,
-                path_bits,
-            }),
-        }
-    }
-
-    /// Cuts the picture into tiles. The tiles of portions do not depend on [`Options::tile`], so
-    /// that all processes cut alike.
-    fn tiles(&self) -> Tiles {
-        let size = self.options.tile.filter(|_| self.portion.is_none());
-        let portion = self.portion.unwrap_or(Portion::WHOLE);
-        Tiles::new(self.crop, size, self.paths, portion)
-    }
-
-    /// Creates the pixels' counter for the paths that `source` traces.
-    fn pixels(&self, source: Source) -> Result<Pixels, RenderError> {
-        Pixels::new(source, self.scene.scene(), self.estimator, self.options)
-    }
-
-    /// Creates the machine that traces the paths of a class of pixels, and describes the search for
-    /// their primary hits, if there is one.
-    fn source(&self, class: PixelClass) -> Result<(Source, Option<Searched>), RenderError> {
-        let Options { seed, model, .. } = *self.options;
-        if self.options.visibility != Visibility::Classical {
-            let (machine, searched) = visibility::machine(self.scene, self.options, class)?;
-            return Ok((Source::Oracle(machine), searched));
-        }
-        if model == Model::Real {
-            let real = match self.predicate {
-                Some(predicate) => Real::of_predicate(predicate, Marks::Light, seed, class)?,
-                None => Real::of_class(self.scene, seed, class)?,
-            };
-            let real = real.with_simd(self.options.simd);
-            return Ok((Source::Real(Box::new(real)), None));
-        }
-        let one_run = self.options.colour == Colour::OneRun;
-        let of_class = oracle::Options::of_class(class);
-        let oracle = match self.predicate {
-            Some(predicate) => predicate.oracle(Marks::Light, of_class)?,
-            None if one_run => Oracle::rgb_and_luminance(self.scene, of_class)?,
-            None => Oracle::rgb(self.scene, of_class)?,
-        };
-        // With one run, the pixel's colour comes from the colours of measured paths.
-        let machine = if model == Model::Gates {
-            OracleMachine::gates(oracle.into(), seed, one_run)?
-        } else {
-            OracleMachine::fixed(oracle.into(), seed, one_run)
-        };
-        Ok((Source::Oracle(machine), None))
-    }
-}
-
-/// Returns the part of the film to render: x, y, width and height.
-pub(crate) fn crop_of(scene: &ValidScene, options: &Options<'_>) -> Result<[u32; 4], RenderError> {
-    let film = [scene.scene().film.width, scene.scene().film.height];
-    let crop = options.crop.unwrap_or([0, 0, film[0], film[1]]);
-    let [x, y, width, height] = crop;
-    let within = |first: u32, length: u32, whole: u32| {
-        length > 0 && first.checked_add(length).is_some_and(|end| end <= whole)
-    };
-    if within(x, width, film[0]) && within(y, height, film[1]) {
-        Ok(crop)
-    } else {
-        Err(RenderError::Crop { crop, film })
-    }
+    let machines = path_machines(&Oracles::new(predicate.scene()), &machine)?;
+    trace(request, machines).map(without_checkpoint)
 }

@@ -14,15 +14,16 @@
 //!
 //! The pixel's luminance has the error of counting. Its colour has the error of a random sample
 //! whose size is the number of measured good indices; it is 0 if all paths have one colour. If no
-//! good index was measured, the pixel is grey: [`Options::expected_grey`].
+//! good index was measured, the pixel is grey: [`RenderOptions::expected_grey`].
 
-use super::source::Source;
 use super::stop::{Stop, ended, go_on};
-use super::{Colour, Options, RenderError};
+use super::{Colour, RenderError, RenderOptions};
+use crate::path_machines::{PathMachine, Traced};
 use crate::workers::Workers;
 use qrt_core::oracle::{LUMINANCE_CHANNEL, luminance};
 use qrt_counting::estimators::{
-    AmplitudeEstimator, CountedStratum, Device, Estimate, EstimatorError, Noise, Problem, Settings,
+    AmplitudeEstimator, CountedStratum, CountingProblem, Device, Estimate, EstimatorError, Noise,
+    Settings,
 };
 use qrt_counting::random::Stream;
 use qrt_counting::{Comparators, CountingError, Octaves, Stratum};
@@ -38,7 +39,7 @@ const SEGMENTS: u64 = 1 << 12;
 /// hundredth of the spread of its paths' colours.
 const MEASURED: u64 = 1 << 13;
 
-impl Options<'_> {
+impl RenderOptions<'_> {
     /// The expected fraction of the lit pixels of `traced`, whose parameters are chosen, that have
     /// no measured path and are therefore grey. 0 if each channel is counted, or if the estimator
     /// measures until it knows enough.
@@ -102,7 +103,7 @@ impl Segments {
     }
 
     /// Encodes the segments, so that they can be continued later.
-    pub(super) fn append_words(&self, words: &mut Vec<u64>) {
+    pub(super) fn encode(&self, words: &mut Vec<u64>) {
         words.extend([self.paths, self.sums.len() as u64]);
         words.extend(&self.sums);
         for (paths, sum) in self.octaves.iter().flat_map(Octaves::by_length) {
@@ -111,7 +112,7 @@ impl Segments {
     }
 
     /// Decodes segments from words; `None` if the words are not those of segments.
-    pub(super) fn of_words(
+    pub(super) fn decode(
         words: &mut impl ExactSizeIterator<Item = u64>,
         one_run: Option<&OneRun>,
     ) -> Option<Self> {
@@ -165,18 +166,20 @@ impl OneRun {
         })
     }
 
-    /// Adds paths by their colours.
-    pub(super) fn take_colours(&self, segments: &mut Segments, colours: &[&[f64]; 3]) {
-        let [r, g, b] = colours;
-        for ((r, g), b) in r.iter().zip(*g).zip(*b) {
-            segments.add(self.good(&[*r, *g, *b]), self);
-        }
-    }
-
-    /// Adds paths by their counts.
-    pub(super) fn take_counts(&self, segments: &mut Segments, counts: &[i64]) {
-        for good in counts {
-            segments.add(good.cast_unsigned(), self);
+    /// Adds the paths of a run.
+    pub(super) fn add_paths(&self, segments: &mut Segments, traced: &Traced<'_>) {
+        match traced {
+            Traced::Colours(block) => {
+                let [r, g, b] = block.colours;
+                for ((r, g), b) in r.iter().zip(g).zip(b) {
+                    segments.add(self.good(&[*r, *g, *b]), self);
+                }
+            }
+            Traced::Counts(finished) => {
+                for good in finished.luminance {
+                    segments.add(good.cast_unsigned(), self);
+                }
+            }
         }
     }
 
@@ -189,11 +192,11 @@ impl OneRun {
         u64::from(self.comparators.good(luminance(colour)))
     }
 
-    /// Returns the colour of a pixel, and the estimate of its luminance. `source` traces the
+    /// Returns the colour of a pixel, and the estimate of its luminance. `machine` traces the
     /// measured paths again; `seed` is the key of the draws.
     pub(super) fn finish(
         &self,
-        (source, seed): (&Source, u64),
+        (machine, seed): (&dyn PathMachine, u64),
         (estimator, noise): (&dyn AmplitudeEstimator, Noise),
         [x, y]: [u32; 2],
         segments: &Segments,
@@ -230,7 +233,7 @@ impl OneRun {
                 paths: segments.paths,
                 workers,
             };
-            self.paths_of(source, [x, y], &places, &ids, |colour| {
+            self.paths_of(machine, [x, y], &places, &ids, |colour| {
                 let luminance = luminance(&colour);
                 // A colour may round to black while its luminance does not.
                 if luminance > 0.0 {
@@ -271,7 +274,7 @@ impl OneRun {
         stream: &'a mut Stream,
     ) -> Result<Device<'a>, EstimatorError> {
         if !self.by_strata {
-            let problem = Problem {
+            let problem = CountingProblem {
                 good: segments.sums.iter().sum(),
                 total: segments.paths * self.comparators.count(),
             };
@@ -287,7 +290,7 @@ impl OneRun {
     /// Calls `colour` with the colours of the paths of the good indices `ids`, which are sorted.
     fn paths_of(
         &self,
-        source: &Source,
+        machine: &dyn PathMachine,
         pixel: [u32; 2],
         places: &GoodPaths<'_>,
         ids: &[u64],
@@ -302,8 +305,8 @@ impl OneRun {
                 let mut before = first;
                 let mut run = start;
                 while run < end {
-                    let next = (run + source.run_length()).min(end);
-                    self.trace(source, pixel, run..next, places.workers, |count, rgb| {
+                    let next = (run + machine.run_length()).min(end);
+                    self.trace(machine, pixel, run..next, places.workers, |count, rgb| {
                         let good = places.stratum.good(count);
                         while ids.next_if(|&id| id < before + good).is_some() {
                             colour(rgb);
@@ -322,36 +325,22 @@ impl OneRun {
     /// colour.
     fn trace(
         &self,
-        source: &Source,
+        machine: &dyn PathMachine,
         pixel: [u32; 2],
         paths: Range<u64>,
         workers: &Workers<'_>,
         mut path: impl FnMut(u64, [f64; 3]),
     ) -> Result<(), Stop> {
         go_on(workers)?;
-        match source {
-            Source::Real(real) => {
-                real.trace_range(&[pixel], paths, |block| {
-                    let [r, g, b] = block.colours;
-                    for ((&r, &g), &b) in r.iter().zip(g).zip(b) {
-                        path(self.good(&[r, g, b]), [r, g, b]);
-                    }
-                });
-                Ok(())
-            }
-            Source::Oracle(machine) => {
-                let unit = 1.0 / (1_u64 << machine.oracle().fraction) as f64;
-                let bound = source.bound();
-                let traced = machine.trace_until(workers.cancel, &[pixel], paths, |finished| {
-                    let [r, g, b] = finished.colours;
-                    for (place, good) in finished.luminance.iter().enumerate() {
-                        let parts = [r[place], g[place], b[place]];
-                        let rgb = [0, 1, 2].map(|c| bound[c] * (parts[c] as f64 * unit));
-                        path(good.cast_unsigned(), rgb);
-                    }
-                });
-                traced.map_err(|defect| ended(machine, defect))
-            }
-        }
+        let traced = machine.trace_paths(workers.cancel, &[pixel], paths, &mut |traced| {
+            traced.each_colour(machine, |place, colour| {
+                let good = match traced {
+                    Traced::Colours(_) => self.good(&colour),
+                    Traced::Counts(finished) => finished.luminance[place].cast_unsigned(),
+                };
+                path(good, colour);
+            });
+        });
+        traced.map_err(|defect| ended(machine, defect))
     }
 }

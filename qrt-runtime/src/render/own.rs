@@ -1,6 +1,6 @@
 //! Pictures with a user-defined estimator.
 
-use super::{OWN_LIKE, Options, RenderError};
+use super::{OWN_LIKE, RenderError, RenderOptions};
 use qrt_counting::estimators::{AmplitudeEstimator, EstimatorError, Settings, estimator};
 use qrt_scene::{Estimator, Scene};
 use std::fmt;
@@ -16,12 +16,12 @@ pub type BoxedEstimator = Box<dyn AmplitudeEstimator + Send + Sync>;
 
 type Make<'a> = dyn Fn(&Settings) -> Result<BoxedEstimator, EstimatorError> + Sync + 'a;
 
-/// A user-defined estimator for [`super::render`]: set [`Options::own_estimator`].
+/// A user-defined estimator for [`super::render`]: set [`RenderOptions::own_estimator`].
 ///
 /// ```
 /// use qrt_scene::front::parse;
 /// use qrt_counting::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError};
-/// use qrt_runtime::render::{Options, OwnEstimator, render};
+/// use qrt_runtime::render::{RenderOptions, OwnEstimator, render};
 ///
 /// /// The fraction of good indices among 100 that are drawn at random.
 /// struct Hundred;
@@ -45,7 +45,8 @@ type Make<'a> = dyn Fn(&Settings) -> Result<BoxedEstimator, EstimatorError> + Sy
 /// # ";
 /// let scene = parse(text, "sky.yaml", &[], "".as_ref())?.valid;
 /// let own = OwnEstimator::new("hundred", &|_settings| Ok(Box::new(Hundred)));
-/// let picture = render(&scene, &Options { own_estimator: Some(own), ..Options::default() })?;
+/// let options = RenderOptions { own_estimator: Some(own), ..RenderOptions::default() };
+/// let picture = render(&scene, &options)?;
 /// assert_eq!(picture.total_queries(), 4 * 2 * 3 * 100);
 /// assert_eq!(picture.metadata()?.get("estimator"), Some("own:hundred"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -88,7 +89,7 @@ impl<'a> OwnEstimator<'a> {
     }
 }
 
-impl Options<'_> {
+impl RenderOptions<'_> {
     /// Returns the estimator that counts paths in superposition; [`OWN_LIKE`] for a user-defined
     /// one.
     ///

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use super::film::{Film, Kept};
-use crate::checkpoint::{AT_STAKE, Part};
+use crate::checkpoint::{AT_STAKE, PixelPart};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -44,7 +44,7 @@ impl Keeper<'_> {
     /// Keeps `parts`; a part may have only the paths traced so far.
     pub(super) fn keep_parts(
         &mut self,
-        parts: impl IntoIterator<Item = Part>,
+        parts: impl IntoIterator<Item = PixelPart>,
     ) -> Result<(), RenderError> {
         self.kept = Instant::now();
         let Some(film) = self.film else {

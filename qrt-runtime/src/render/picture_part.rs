@@ -2,28 +2,22 @@
 //!
 //! A part has a portion's pixels and everything that a picture's files record: colours, counts,
 //! queries and strata by pixel, bounds, parameters and plan. Its file has the format of a
-//! checkpoint (see [`crate::checkpoint`]) with one further record at the end, so that a truncated
-//! file is noticed. The CRC-32 of the header and of each record shows changed bytes. [`Merge`]
+//! checkpoint (see [`crate::checkpoint`]) with one further record at the end, the picture's
+//! [`Properties`], so that a truncated file is noticed. The CRC-32 of the header and of each record shows changed bytes. [`Merge`]
 //! takes the parts in any order and returns the picture that [`super::render`] would have made, to
 //! the last bit.
 
 use super::film::Film;
 use super::job::{PORTION, counts_good, header};
-use super::own::PREFIX;
+use super::properties::Properties;
+use super::request::Request;
 use super::tiles::{Tiles, rows};
-use super::{
-    Colour, Model, Options, Portion, RenderError, Rendered, Request, Scales, Searched, Visibility,
-    render_portion,
+use super::{Portion, RenderError, RenderOptions, Rendered};
+use crate::checkpoint::{
+    Checkpoint, CheckpointDifference, CheckpointError, Ending, Header, Record, Tile,
 };
-use crate::checkpoint::{Checkpoint, CheckpointError, Difference, Ending, Header, Record, Tile};
-use crate::image::Image;
-use crate::plan::{ErrorParts, Figures};
-use crate::search::Guess;
-use qrt_core::oracle::CallCost;
-use qrt_core::tracer::{PixelClass, PixelClasses};
-use qrt_counting::estimators::Noise;
-use qrt_scene::valid::{Parameters, ValidScene};
-use qrt_scene::{Accuracy, Estimator, Scene, Sequence};
+use crate::prepared::Prepared;
+use qrt_scene::valid::ValidScene;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -62,7 +56,7 @@ pub enum MergeError {
         name: String,
         first: String,
         /// The differences: `found` is the value in `name`, `asked` that in `first`.
-        differences: Vec<Difference>,
+        differences: Vec<CheckpointDifference>,
     },
     /// Two parts have the same pixels.
     #[error("`{name}` and `{first}` are both part {portion}: leave one of them out")]
@@ -85,9 +79,9 @@ pub enum MergeError {
     Memory { pixels: u64 },
 }
 
-fn listed(differences: &[Difference]) -> String {
+fn listed(differences: &[CheckpointDifference]) -> String {
     let of = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".into());
-    let line = |Difference { what, found, asked }: &Difference| {
+    let line = |CheckpointDifference { what, found, asked }: &CheckpointDifference| {
         format!("\n  {what}: {} and {}", of(found), of(asked))
     };
     differences.iter().map(line).collect()
@@ -120,17 +114,17 @@ pub struct PicturePart {
     rendered: Rendered,
 }
 
-/// Renders a portion of a picture. As [`super::render_keeping`], it returns the checkpoint.
+/// Renders a portion of a picture. As [`Prepared::render`], it returns the checkpoint.
 ///
 /// For a scene with an accuracy, each part makes the same plan again: a plan depends on no seed and
-/// no portion. [`Options::plan`] passes an existing plan.
+/// no portion. [`Prepared::render_part`] uses the plan of a prepared scene.
 ///
 /// # Errors
 /// As [`super::render`]; and if there are more portions than pixels of the picture.
 ///
 /// ```
 /// use qrt_scene::front::parse;
-/// use qrt_runtime::render::{Merge, Options, Portion, render, render_part};
+/// use qrt_runtime::render::{Merge, RenderOptions, Portion, render, render_part};
 /// let text = "
 /// name: sky
 /// camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
@@ -142,27 +136,41 @@ pub struct PicturePart {
 /// let scene = parse(text, "sky.yaml", &[], "".as_ref())?.valid;
 /// let mut merge = Merge::default();
 /// for portion in ["1/2", "0/2"] {
-///     let (part, _) = render_part(&scene, portion.parse()?, &Options::default())?;
+///     let (part, _) = render_part(&scene, portion.parse()?, &RenderOptions::default())?;
 ///     merge.add(portion, &part.encode())?;
 /// }
-/// assert_eq!(merge.finish()?.image, render(&scene, &Options::default())?.image);
+/// assert_eq!(merge.finish()?.image, render(&scene, &RenderOptions::default())?.image);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn render_part(
     scene: &ValidScene,
     portion: Portion,
-    options: &Options<'_>,
+    options: &RenderOptions<'_>,
 ) -> Result<(PicturePart, Option<Checkpoint>), RenderError> {
-    let told = |request: &Request<'_>| (header(request), written(request.scene));
-    let (rendered, (header, written), checkpoint) =
-        render_portion(scene, options, Some(portion), told)?;
-    let part = PicturePart {
-        portion,
-        header,
-        written,
-        rendered,
-    };
-    Ok((part, checkpoint))
+    options.prepare(scene)?.render_part(portion, options)
+}
+
+impl Prepared<'_> {
+    /// Renders a portion of the picture: see [`render_part`].
+    ///
+    /// # Errors
+    /// As [`render_part`].
+    pub fn render_part(
+        &self,
+        portion: Portion,
+        options: &RenderOptions<'_>,
+    ) -> Result<(PicturePart, Option<Checkpoint>), RenderError> {
+        let request = Request::new(self.scene(), options)?.with_portion(portion)?;
+        let header = header(&request);
+        let (rendered, checkpoint) = self.render_request(request)?;
+        let part = PicturePart {
+            portion,
+            header,
+            written: written(self.scene()),
+            rendered,
+        };
+        Ok((part, checkpoint))
+    }
 }
 
 fn written(scene: &ValidScene) -> String {
@@ -224,11 +232,8 @@ impl PicturePart {
             }
             bytes.extend(tile.encode());
         }
-        let ending = Ending {
-            text: format!("{}\n{}", self.rendered.scene_hash, self.written),
-            words: property_words(&self.rendered),
-        };
-        bytes.extend(ending.encode());
+        let properties = Properties::new(&self.rendered, &self.written);
+        bytes.extend(Ending(properties.encode()).encode());
         bytes
     }
 }
@@ -274,7 +279,7 @@ impl Merge {
             Some((first, expected)) => {
                 let mut differences = header.differences(expected);
                 if portion.count() != self.count {
-                    differences.push(Difference {
+                    differences.push(CheckpointDifference {
                         what: "parts".into(),
                         found: Some(portion.count().to_string()),
                         asked: Some(self.count.to_string()),
@@ -338,8 +343,8 @@ impl Merge {
             for tile in &tiles {
                 film.paint(tile);
             }
-            whole.paths += rendered.paths;
-            whole.resumed_paths += rendered.resumed_paths;
+            whole.paths = whole.paths.saturating_add(rendered.paths);
+            whole.resumed_paths = whole.resumed_paths.saturating_add(rendered.resumed_paths);
             whole.seconds += rendered.seconds;
             whole.threads = whole.threads.max(rendered.threads);
         }
@@ -394,7 +399,10 @@ impl Read {
                 Some(Record::Ending(_)) | None => return Err(damaged()),
             }
         };
-        let rendered = rendered(header, &ending).ok_or_else(damaged)?;
+        let Ending(properties) = ending;
+        let properties = Properties::decode(&properties);
+        let rendered = properties.and_then(|properties| properties.rendered(header));
+        let rendered = rendered.ok_or_else(damaged)?;
         let tiles = tiles(&rendered, portion);
         let [x, y, width, height] = header.crop;
         let whole = x.checked_add(width).is_some_and(|end| end <= header.width)
@@ -413,283 +421,4 @@ impl Read {
             rendered,
         })
     }
-}
-
-/// Encodes the properties of a picture other than its pixels; [`rendered`] decodes them.
-fn property_words(rendered: &Rendered) -> Vec<u64> {
-    let mut words = vec![
-        place(&Model::ALL, &rendered.model),
-        place(&Colour::ALL, &rendered.colour),
-        place(Estimator::ALL, &rendered.estimator),
-    ];
-    let Noise {
-        depolarising,
-        readout,
-    } = rendered.noise;
-    words.extend([depolarising, readout].map(f64::to_bits));
-    match rendered.visibility {
-        Visibility::Classical => words.push(0),
-        Visibility::Exhaustive => words.push(1),
-        Visibility::Grover { failure, guess } => {
-            words.extend([2, failure.to_bits(), place(&Guess::ALL, &guess)]);
-        }
-    }
-    words.push(rendered.searched.is_some().into());
-    if let Some(searched) = rendered.searched {
-        let Searched {
-            faces,
-            states,
-            failure,
-            qubits,
-            toffoli,
-        } = searched;
-        words.extend([faces, states, failure.to_bits(), qubits, toffoli]);
-    }
-    words.push(rendered.plan.is_some().into());
-    if let Some(figures) = &rendered.plan {
-        put_figures(&mut words, figures);
-    }
-    let Scales { of, bounds } = &rendered.scales;
-    words.push(of.outlines().is_some().into());
-    if let Some(outlines) = of.outlines() {
-        words.push(outlines.len() as u64);
-        for outline in outlines {
-            words.push(outline.len() as u64);
-            words.extend(outline.into_iter().flatten().map(f64::to_bits));
-        }
-    }
-    words.push(bounds.len() as u64);
-    for (class, bounds) in bounds {
-        words.push(place(&PixelClass::ALL, class));
-        words.extend(bounds.map(f64::to_bits));
-    }
-    words.extend([
-        rendered.ids,
-        rendered.paths,
-        rendered.resumed_paths,
-        rendered.seconds.to_bits(),
-        rendered.threads as u64,
-    ]);
-    words
-}
-
-fn put_figures(words: &mut Vec<u64>, figures: &Figures) {
-    let Figures {
-        accuracy,
-        mean,
-        pixels,
-        sequence,
-        path_bits,
-        extrapolated,
-        fraction,
-        comparator_bits,
-        estimator,
-        phase_bits,
-        repetitions,
-        error,
-        within,
-        parts,
-        queries,
-        channel_queries,
-        cost,
-    } = *figures;
-    let floats = [accuracy.error, accuracy.confidence, mean, within, queries];
-    words.extend(floats.map(f64::to_bits));
-    words.extend(channel_queries.map(f64::to_bits));
-    let ErrorParts {
-        paths,
-        comparators,
-        width,
-        counting,
-        total,
-    } = parts;
-    words.extend([paths, comparators, width, counting, total].map(f64::to_bits));
-    words.extend(pixels);
-    words.extend([
-        place(Sequence::ALL, &sequence),
-        place(Estimator::ALL, &estimator),
-        extrapolated.into(),
-    ]);
-    words.extend([path_bits, comparator_bits, phase_bits, repetitions].map(u64::from));
-    let mut maybe = |values: Option<Vec<u64>>| {
-        words.push(values.is_some().into());
-        words.extend(values.unwrap_or_default());
-    };
-    maybe(fraction.map(|bits| vec![bits.into()]));
-    maybe(error.map(|error| vec![error.to_bits()]));
-    maybe(cost.map(|cost| vec![cost.qubits, cost.toffoli]));
-}
-
-/// Returns the place of a value in a list of all values.
-fn place<T: PartialEq>(all: &[T], value: &T) -> u64 {
-    all.iter().take_while(|other| *other != value).count() as u64
-}
-
-/// A reader of words, one after another.
-struct Words<'a>(std::slice::Iter<'a, u64>);
-
-impl Words<'_> {
-    fn word(&mut self) -> Option<u64> {
-        self.0.next().copied()
-    }
-
-    fn small(&mut self) -> Option<u32> {
-        self.word()?.try_into().ok()
-    }
-
-    fn float(&mut self) -> Option<f64> {
-        self.word().map(f64::from_bits)
-    }
-
-    fn floats<const N: usize>(&mut self) -> Option<[f64; N]> {
-        let mut floats = [0.0; N];
-        for float in &mut floats {
-            *float = self.float()?;
-        }
-        Some(floats)
-    }
-
-    /// Returns the value with the place that the next word holds.
-    fn one_of<T: Copy>(&mut self, all: &[T]) -> Option<T> {
-        let number: usize = self.word()?.try_into().ok()?;
-        all.get(number).copied()
-    }
-
-    /// Reads an optional value; `None` if the words are not valid.
-    #[allow(clippy::option_option)]
-    fn maybe<T>(&mut self, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Option<T>> {
-        match self.word()? {
-            0 => Some(None),
-            1 => read(self).map(Some),
-            _ => None,
-        }
-    }
-
-    fn list<T>(&mut self, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
-        let length = self.word()?;
-        (0..length).map(|_| read(self)).collect()
-    }
-
-    fn figures(&mut self) -> Option<Figures> {
-        let [error, confidence, mean, within, queries] = self.floats()?;
-        let channel_queries = self.floats()?;
-        let [paths, comparators, width, counting, total] = self.floats()?;
-        Some(Figures {
-            channel_queries,
-            accuracy: Accuracy { error, confidence },
-            mean,
-            within,
-            queries,
-            parts: ErrorParts {
-                paths,
-                comparators,
-                width,
-                counting,
-                total,
-            },
-            pixels: [self.word()?, self.word()?],
-            sequence: self.one_of(Sequence::ALL)?,
-            estimator: self.one_of(Estimator::ALL)?,
-            extrapolated: self.one_of(&[false, true])?,
-            path_bits: self.small()?,
-            comparator_bits: self.small()?,
-            phase_bits: self.small()?,
-            repetitions: self.small()?,
-            fraction: self.maybe(Self::small)?,
-            error: self.maybe(Self::float)?,
-            cost: self.maybe(|words| {
-                let [qubits, toffoli] = [words.word()?, words.word()?];
-                Some(CallCost { qubits, toffoli })
-            })?,
-        })
-    }
-}
-
-/// Decodes the properties of a picture, without its pixels, from the header and the ending of a
-/// part.
-fn rendered(header: &Header, ending: &Ending) -> Option<Rendered> {
-    let (scene_hash, written) = ending.text.split_once('\n')?;
-    let scene = Scene::from_yaml(written, "the part").ok()?;
-    if [scene.film.width, scene.film.height] != [header.width, header.height] {
-        return None;
-    }
-    let mut words = Words(ending.words.iter());
-    let words = &mut words;
-    let model = words.one_of(&Model::ALL)?;
-    let colour = words.one_of(&Colour::ALL)?;
-    let estimator = words.one_of(Estimator::ALL)?;
-    let [depolarising, readout] = words.floats()?;
-    let visibility = match words.word()? {
-        0 => Visibility::Classical,
-        1 => Visibility::Exhaustive,
-        2 => Visibility::Grover {
-            failure: words.float()?,
-            guess: words.one_of(&Guess::ALL)?,
-        },
-        _ => return None,
-    };
-    let searched = words.maybe(|words| {
-        Some(Searched {
-            faces: words.word()?,
-            states: words.word()?,
-            failure: words.float()?,
-            qubits: words.word()?,
-            toffoli: words.word()?,
-        })
-    })?;
-    let plan = words.maybe(Words::figures)?;
-    let outlines = words.maybe(|words| words.list(|words| words.list(Words::floats)))?;
-    let bounds = words.list(|words| Some((words.one_of(&PixelClass::ALL)?, words.floats()?)))?;
-    if bounds.is_empty() {
-        return None;
-    }
-    let rendered = Rendered {
-        scene_name: scene.name,
-        scene_hash: scene_hash.to_owned(),
-        film: [header.width, header.height],
-        image: Image {
-            width: 0,
-            height: 0,
-            pixels: Vec::new(),
-            window: None,
-        },
-        queries: Vec::new(),
-        widths: Vec::new(),
-        strata: Vec::new(),
-        good: None,
-        model,
-        visibility,
-        searched,
-        crop: header.crop,
-        estimator,
-        own_estimator: {
-            let own = header.options.get("estimator");
-            own.and_then(|name| name.strip_prefix(PREFIX))
-                .map(str::to_owned)
-        },
-        colour,
-        noise: Noise {
-            depolarising,
-            readout,
-        },
-        seed: header.seed,
-        parameters: Parameters {
-            sampling: scene.sampling,
-            precision: scene.precision,
-            comparator: scene.comparator,
-            counting: scene.counting,
-            circuit: scene.circuit,
-        },
-        plan,
-        scales: Scales {
-            of: PixelClasses::of_outlines(outlines),
-            bounds,
-        },
-        ids: words.word()?,
-        paths: words.word()?,
-        resumed_paths: words.word()?,
-        seconds: words.float()?,
-        threads: words.word()?.try_into().ok()?,
-    };
-    words.word().is_none().then_some(rendered)
 }

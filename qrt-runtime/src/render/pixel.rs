@@ -2,16 +2,15 @@
 
 use super::one_run::OneRun;
 use super::parts::Parts;
-use super::source::{RUN, Source};
 use super::stop::{Stop, ended, go_on};
 use super::totals::Totals;
-use super::{BoxedEstimator, Colour, Options, RenderError};
-use crate::checkpoint::Part;
-use crate::path_machines::PathBlock;
+use super::{BoxedEstimator, Colour, RenderError, RenderOptions};
+use crate::checkpoint::PixelPart;
+use crate::path_machines::{PathBlock, PathMachine, Traced};
 use crate::workers::{Progress, Workers};
 use qrt_core::oracle::luminance;
 use qrt_counting::estimators::{
-    AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Problem, Settings,
+    AmplitudeEstimator, CountingProblem, Device, Estimate, EstimatorError, Noise, Settings,
 };
 use qrt_counting::random::Stream;
 use qrt_counting::{Comparators, Octaves};
@@ -19,8 +18,8 @@ use qrt_scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// With more paths than this, the paths of a pixel are cut into parts for several threads.
-const SPLIT: u64 = 1 << 18;
+/// The smallest number of paths of a part of a pixel.
+const LEAST: u64 = 1 << 16;
 /// The largest number of parts of a pixel.
 const PARTS: u64 = 1 << 12;
 
@@ -50,7 +49,7 @@ impl Pixel {
 
 /// Traces the paths of pixels, and computes the pixels' colours.
 pub(super) struct Pixels {
-    source: Source,
+    machine: Box<dyn PathMachine>,
     comparator_bits: u32,
     bound: [f64; 3],
     /// The largest colour of a path by channel that rounding can explain; the bound itself for an
@@ -78,16 +77,13 @@ fn report(workers: &Workers<'_>, paths: u64) {
 
 impl Pixels {
     pub(super) fn new(
-        source: Source,
+        machine: Box<dyn PathMachine>,
         scene: &Scene,
         estimate: Estimator,
-        options: &Options<'_>,
+        options: &RenderOptions<'_>,
     ) -> Result<Self, RenderError> {
-        let bound = source.bound();
-        let (limit, paths) = match &source {
-            Source::Real(real) => (real.stage().limit(), real.paths()),
-            Source::Oracle(machine) => (bound, machine.paths()),
-        };
+        let (bound, paths) = (machine.bounds(), machine.paths());
+        let limit = [0, 1, 2].map(|channel| machine.limit(channel));
         for (channel, bound) in bound.into_iter().enumerate() {
             let summable = bound <= f64::MAX / 2.0 / paths as f64;
             // A NaN is not summable either.
@@ -128,7 +124,7 @@ impl Pixels {
             })
         };
         Ok(Self {
-            source,
+            machine,
             comparator_bits: scene.comparator.bits,
             bound,
             limit,
@@ -164,10 +160,7 @@ impl Pixels {
     /// Returns whether a pixel is traced by itself: it has enough paths to occupy all threads, or
     /// more paths than a circuit runs together.
     pub(super) fn splits(&self) -> bool {
-        match &self.source {
-            Source::Real(_) => self.paths > SPLIT,
-            Source::Oracle(machine) => self.paths > machine.paths_at_once(),
-        }
+        self.paths > self.machine.most_undivided()
     }
 
     /// Traces the pixels number `numbers` of `pixels`, which have few paths each, and puts their
@@ -192,13 +185,13 @@ impl Pixels {
         let mut keeper = kept.keeper();
         // Pixels that are traced but not kept yet.
         let mut new: Vec<usize> = Vec::new();
-        let together = (self.source.run_length() / self.paths).max(1) as usize;
+        let together = (self.machine.run_length() / self.paths).max(1) as usize;
         for numbers in open.chunks(together) {
             let group: Vec<[u32; 2]> = numbers.iter().map(|&n| pixels[n]).collect();
             let mut totals = vec![self.empty_totals(); group.len()];
             let mut first = 0;
             while first < self.paths {
-                let end = (first + self.source.run_length()).min(self.paths);
+                let end = (first + self.machine.run_length()).min(self.paths);
                 self.trace(&group, first..end, &mut totals, workers)?;
                 report(workers, (end - first) * group.len() as u64);
                 first = end;
@@ -216,8 +209,8 @@ impl Pixels {
     }
 
     /// Encodes the totals of all paths of a pixel as a part to be kept.
-    pub(super) fn whole(&self, pixel: [u32; 2], totals: &Totals) -> Part {
-        Part {
+    pub(super) fn whole(&self, pixel: [u32; 2], totals: &Totals) -> PixelPart {
+        PixelPart {
             pixel,
             number: 0,
             paths: self.paths,
@@ -235,10 +228,10 @@ impl Pixels {
         most: u64,
     ) -> Option<(u64, Totals)> {
         let (paths, words) = kept.before(pixel, number)?;
-        let whole_runs = paths.is_multiple_of(self.source.run_length()) || paths == most;
+        let whole_runs = paths.is_multiple_of(self.machine.run_length()) || paths == most;
         let totals = self
             .empty_totals()
-            .with_words(words, self.one_run())
+            .decode(words, self.one_run())
             .filter(|_| whole_runs && paths <= most)?;
         Some((paths, totals))
     }
@@ -253,32 +246,33 @@ impl Pixels {
         workers: &Workers<'_>,
     ) -> Result<(), Stop> {
         go_on(workers)?;
-        match &self.source {
-            Source::Real(real) => {
-                real.trace_range(pixels, ids, |block| {
-                    self.add_block(&mut totals[block.pixel], &block);
-                });
-                Ok(())
-            }
-            Source::Oracle(machine) => {
-                let traced = machine.trace_until(workers.cancel, pixels, ids, |finished| {
-                    let totals = &mut totals[finished.pixel];
-                    if let Some(one_run) = self.one_run() {
-                        one_run.take_counts(&mut totals.segments, finished.luminance);
-                    }
+        let machine = &*self.machine;
+        let traced = machine.trace_paths(workers.cancel, pixels, ids, &mut |traced| {
+            let totals = &mut totals[traced.pixel()];
+            match &traced {
+                Traced::Colours(block) => self.add_block(totals, block),
+                Traced::Counts(finished) => {
                     totals.queries += finished.queries;
-                    for (total, good) in totals.good.iter_mut().zip(finished.good) {
-                        *total += good.iter().sum::<i64>().cast_unsigned();
-                    }
-                    if self.by_octaves() {
-                        for (octaves, good) in totals.octaves.iter_mut().zip(finished.good) {
-                            for good in good {
-                                octaves.add(good.cast_unsigned());
-                            }
-                        }
-                    }
-                });
-                traced.map_err(|defect| ended(machine, defect))
+                    self.add_counts(totals, finished.good);
+                }
+            }
+            if let Some(one_run) = self.one_run() {
+                one_run.add_paths(&mut totals.segments, &traced);
+            }
+        });
+        traced.map_err(|defect| ended(machine, defect))
+    }
+
+    /// Adds numbers of thresholds that colours exceed.
+    fn add_counts(&self, totals: &mut Totals, counts: [&[i64]; 3]) {
+        for (total, good) in totals.good.iter_mut().zip(counts) {
+            *total += good.iter().sum::<i64>().cast_unsigned();
+        }
+        if self.by_octaves() {
+            for (octaves, good) in totals.octaves.iter_mut().zip(counts) {
+                for good in good {
+                    octaves.add(good.cast_unsigned());
+                }
             }
         }
     }
@@ -292,7 +286,7 @@ impl Pixels {
         workers: &Workers<'_>,
         kept: &Parts<'_>,
     ) -> Result<Totals, Stop> {
-        let part = RUN.max(self.paths / PARTS);
+        let part = LEAST.max(self.paths / PARTS);
         let parts = (0..self.paths.div_ceil(part)).into_par_iter();
         let totals = parts.map(|n| {
             let ids = n * part..((n + 1) * part).min(self.paths);
@@ -301,14 +295,14 @@ impl Pixels {
             let mut totals = [totals];
             let mut first = ids.start + paths;
             let mut keeper = kept.keeper();
-            let part_of = |first: u64, totals: &Totals| Part {
+            let part_of = |first: u64, totals: &Totals| PixelPart {
                 pixel,
                 number: n,
                 paths: first - ids.start,
                 totals: totals.encode(),
             };
             while first < ids.end {
-                let end = (first + self.source.run_length()).min(ids.end);
+                let end = (first + self.machine.run_length()).min(ids.end);
                 if let Err(stop) = self.trace(&[pixel], first..end, &mut totals, workers) {
                     let traced = (first > ids.start).then(|| part_of(first, &totals[0]));
                     keeper.keep_parts(traced)?;
@@ -366,9 +360,6 @@ impl Pixels {
                 }
             }
         }
-        if let Some(one_run) = self.one_run() {
-            one_run.take_colours(&mut totals.segments, &block.colours);
-        }
     }
 
     /// Returns a finished pixel: its colour, its counts and its queries. Without an estimator, the
@@ -383,9 +374,10 @@ impl Pixels {
         let mut finished = Pixel {
             colour: [0.0; 3],
             queries: totals.queries,
-            good: match self.source {
-                Source::Real(_) => [0; 3],
-                Source::Oracle(_) => totals.good,
+            good: if self.counts_thresholds() {
+                totals.good
+            } else {
+                [0; 3]
             },
             widths: [0.0; 3],
             strata: [0; 3],
@@ -397,9 +389,9 @@ impl Pixels {
         if let Some(one_run) = &counter.one_run {
             let estimator: &dyn AmplitudeEstimator = &*counter.estimators[0];
             let device = (estimator, counter.noise);
-            let source = (&self.source, self.seed);
+            let machine = (&*self.machine, self.seed);
             let segments = &totals.segments;
-            let (colour, estimate) = one_run.finish(source, device, pixel, segments, workers)?;
+            let (colour, estimate) = one_run.finish(machine, device, pixel, segments, workers)?;
             finished.colour = colour;
             finished.queries = 0;
             if let Some(estimate) = estimate {
@@ -450,20 +442,20 @@ impl Pixels {
         colour: f64,
         workers: &Workers<'_>,
     ) -> Result<u64, Stop> {
-        let Source::Real(real) = &self.source else {
-            return Ok(0);
-        };
-        for first in (0..self.paths).step_by(RUN as usize) {
+        let machine = &*self.machine;
+        let run = machine.run_length();
+        for first in (0..self.paths).step_by(run as usize) {
             go_on(workers)?;
             let (mut id, mut found) = (first, None);
-            let ids = first..(first + RUN).min(self.paths);
-            real.trace_range(&[pixel], ids, |block| {
-                for &other in block.colours[channel] {
-                    let is_it = other.to_bits() == colour.to_bits();
+            let ids = first..(first + run).min(self.paths);
+            let traced = machine.trace_paths(workers.cancel, &[pixel], ids, &mut |traced| {
+                traced.each_colour(machine, |_, other| {
+                    let is_it = other[channel].to_bits() == colour.to_bits();
                     found = found.or(is_it.then_some(id));
                     id += 1;
-                }
+                });
             });
+            traced.map_err(|defect| ended(machine, defect))?;
             if let Some(found) = found {
                 return Ok(found);
             }
@@ -471,12 +463,20 @@ impl Pixels {
         Ok(0)
     }
 
+    /// True if the machine reports numbers of thresholds, and false if it reports colours.
+    fn counts_thresholds(&self) -> bool {
+        self.machine.fraction().is_some()
+    }
+
     /// The mean of a pixel's paths: of their colours, or of the thresholds that the colours exceed.
     fn means(&self, totals: &Totals) -> [f64; 3] {
         let ids = self.paths << self.comparator_bits;
-        std::array::from_fn(|channel| match self.source {
-            Source::Real(_) => totals.colour[channel].value() / self.paths as f64,
-            Source::Oracle(_) => self.bound[channel] * (totals.good[channel] as f64 / ids as f64),
+        std::array::from_fn(|channel| {
+            if self.counts_thresholds() {
+                self.bound[channel] * (totals.good[channel] as f64 / ids as f64)
+            } else {
+                totals.colour[channel].value() / self.paths as f64
+            }
         })
     }
 
@@ -492,7 +492,7 @@ impl Pixels {
         let mut device = if counter.by_strata {
             Device::of_octaves(&totals.octaves[channel], counter.noise, &mut stream)?
         } else {
-            let problem = Problem {
+            let problem = CountingProblem {
                 good: totals.good[channel],
                 total: self.paths * counter.comparators[channel].count(),
             };
@@ -524,8 +524,14 @@ sampling: { path_bits: 5 }
 
     fn wall(estimator: Estimator) -> Pixels {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
-        let real = Source::Real(Box::new(Real::new(&scene, 0).unwrap()));
-        Pixels::new(real, scene.scene(), estimator, &Options::default()).unwrap()
+        let real = Real::new(&scene, 0).unwrap();
+        Pixels::new(
+            Box::new(real),
+            scene.scene(),
+            estimator,
+            &RenderOptions::default(),
+        )
+        .unwrap()
     }
 
     fn few(pixels: &Pixels) -> Vec<Totals> {
@@ -585,7 +591,7 @@ sampling: { path_bits: 5 }
     #[test]
     fn a_path_of_a_circuit_beyond_its_bound_is_reported_and_never_clamped() {
         let scene = parse(WALL, "wall.yaml", &[], "".as_ref()).unwrap().valid;
-        let mut oracle = Oracle::rgb(&scene, qrt_core::oracle::Options::default()).unwrap();
+        let mut oracle = Oracle::rgb(&scene, qrt_core::oracle::OracleOptions::default()).unwrap();
         // The wall is as bright as the bound. The test doubles the counts of thresholds below it.
         for channel in &mut oracle.channels {
             match &mut channel.count {
@@ -594,8 +600,8 @@ sampling: { path_bits: 5 }
             }
         }
         let machine = OracleMachine::fixed(oracle.into(), 0, false);
-        let source = Source::Oracle(machine);
-        let pixels = Pixels::new(source, scene.scene(), Estimator::Exact, &Options::default());
+        let options = RenderOptions::default();
+        let pixels = Pixels::new(Box::new(machine), scene.scene(), Estimator::Exact, &options);
         let (workers, kept, mut all) = (Workers::default(), Parts::default(), [None]);
         let traced = pixels
             .unwrap()

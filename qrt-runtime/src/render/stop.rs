@@ -1,7 +1,7 @@
 //! Reasons why the work on pixels ends early.
 
 use super::RenderError;
-use crate::path_machines::{Defect, OracleMachine};
+use crate::path_machines::{Defect, PathMachine};
 use crate::workers::Workers;
 
 /// The reason why the work on a pixel or a tile ended early.
@@ -25,7 +25,7 @@ pub(super) fn go_on(workers: &Workers<'_>) -> Result<(), Stop> {
 }
 
 /// Converts a defect into the reason why a run of paths of this machine ended early.
-pub(super) fn ended(machine: &OracleMachine, defect: Defect) -> Stop {
+pub(super) fn ended(machine: &dyn PathMachine, defect: Defect) -> Stop {
     match defect {
         Defect::Cancelled => Stop::Cancelled,
         Defect::OutOfBounds {
@@ -35,17 +35,14 @@ pub(super) fn ended(machine: &OracleMachine, defect: Defect) -> Stop {
             count,
             most,
         } => {
-            let oracle = machine.oracle();
-            let mut channels = oracle.channels.iter();
-            let of_channel = channels.find(|found| found.number == channel);
-            let bound = of_channel.map_or(0.0, |channel| channel.scale);
+            let bound = machine.bound(channel);
             Stop::Failed(RenderError::OutOfBounds {
                 pixel,
                 id,
                 channel,
                 colour: bound * (count as f64 / most as f64),
                 bound,
-                fraction: Some(oracle.fraction),
+                fraction: machine.fraction(),
             })
         }
         defect => defect.into(),

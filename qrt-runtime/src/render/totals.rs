@@ -31,7 +31,7 @@ impl Totals {
                 words.extend([paths, sum]);
             }
         }
-        self.segments.append_words(&mut words);
+        self.segments.encode(&mut words);
         words
     }
 
@@ -54,20 +54,20 @@ impl Totals {
 
     /// Decodes totals from words into `self`, which must be totals without paths; `None` if the
     /// words are not those of totals.
-    pub(super) fn with_words(mut self, words: &[u64], one_run: Option<&OneRun>) -> Option<Self> {
+    pub(super) fn decode(mut self, words: &[u64], one_run: Option<&OneRun>) -> Option<Self> {
         let mut words = words.iter().copied();
         let words = &mut words;
         let totals = &mut self;
         totals.queries = words.next()?;
         for channel in 0..3 {
             let sum: Vec<u64> = words.by_ref().take(Sum::WORDS).collect();
-            totals.colour[channel] = Sum::of_words(sum.as_array()?)?;
+            totals.colour[channel] = Sum::decode(sum.as_array()?)?;
             totals.good[channel] = words.next()?;
             totals.stray[channel] = (words.next()?, f64::from_bits(words.next()?));
             let none = &totals.octaves[channel];
             totals.octaves[channel] = none.with_lengths(|| Some((words.next()?, words.next()?)))?;
         }
-        totals.segments = Segments::of_words(words, one_run)?;
+        totals.segments = Segments::decode(words, one_run)?;
         words.next().is_none().then_some(self)
     }
 }

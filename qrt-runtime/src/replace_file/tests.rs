@@ -161,7 +161,7 @@ fn what_the_dead_have_left_is_removed_and_what_the_living_write_is_not() {
         assert!(!folder.names().contains(&abandoned.to_owned()));
         // Another process writes the same file, and finishes first.
         write(&path, b"quick")?;
-        try_writing(&Place::resolve(&path)?)
+        try_writing(&ResolvedPath::resolve(&path)?)
     })
     .unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"slow");

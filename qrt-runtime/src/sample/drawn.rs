@@ -2,7 +2,7 @@
 
 use qrt_counting::Octaves;
 use qrt_counting::estimators::{
-    AmplitudeEstimator, Device, EstimatorError, Noise, Problem, Settings, estimator,
+    AmplitudeEstimator, CountingProblem, Device, EstimatorError, Noise, Settings, estimator,
 };
 use qrt_counting::random::Stream;
 use qrt_scene::Counting;
@@ -11,25 +11,27 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 /// Runs of an estimator on the channels of pixels.
-pub(crate) struct Draws<'a> {
-    pub(crate) counting: &'a Counting,
+pub struct Draws<'a> {
+    /// The block `counting` of the scene.
+    pub counting: &'a Counting,
     /// The scale of colours, by pixel and channel. If it is 0, nothing is counted, and the
     /// amplitude is 0.
-    pub(crate) scales: &'a [[f64; 3]],
-    pub(crate) noise: Noise,
+    pub scales: &'a [[f64; 3]],
+    /// The noise of the device.
+    pub noise: Noise,
     /// The key of the first draw; the keys of the others follow from it.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// Number of draws of each channel.
-    pub(crate) count: u64,
+    pub count: u64,
     /// N, the number of indices of a channel.
-    pub(crate) total: u64,
+    pub total: u64,
 }
 
 /// An estimator for each scale. There are few scales: one for each channel and class of pixels.
 type Estimators = BTreeMap<u64, Box<dyn AmplitudeEstimator + Send + Sync>>;
 
 /// The counts of good indices of pixels, by channel.
-pub(crate) enum Countable<'a> {
+pub enum Countable<'a> {
     /// S, the number of good indices.
     Whole(&'a [[u64; 3]]),
     /// Counts of exceeded thresholds by octave, so that strata may be counted one by one.
@@ -46,20 +48,26 @@ impl Countable<'_> {
 }
 
 /// The estimates that were drawn for one pixel.
-pub(crate) struct Drawn {
+pub struct PixelEstimates {
     /// The estimated amplitudes, by draw and channel.
-    pub(crate) amplitudes: Vec<[f64; 3]>,
+    pub amplitudes: Vec<[f64; 3]>,
     /// The queries of all draws together, by channel.
-    pub(crate) queries: [u64; 3],
+    pub queries: [u64; 3],
 }
 
 impl Draws<'_> {
-    /// Draws the estimates of all pixels.
-    pub(crate) fn draw(
+    /// Draws the estimates of all `pixels`. [`scales`](Self::scales) and `good` have an entry for each.
+    ///
+    /// # Errors
+    /// If the estimator cannot count these indices.
+    ///
+    /// # Panics
+    /// If there are fewer scales than pixels with counts.
+    pub fn draw(
         &self,
         pixels: &[[u32; 2]],
         good: &Countable<'_>,
-    ) -> Result<Vec<Drawn>, EstimatorError> {
+    ) -> Result<Vec<PixelEstimates>, EstimatorError> {
         let mut estimators = Estimators::new();
         let counted = self.scales.iter().flatten().filter(|&&scale| scale > 0.0);
         for &scale in counted {
@@ -80,7 +88,7 @@ impl Draws<'_> {
         good: &Countable<'_>,
         place: usize,
         estimators: &Estimators,
-    ) -> Result<Drawn, EstimatorError> {
+    ) -> Result<PixelEstimates, EstimatorError> {
         let scales = self.scales[place].map(f64::to_bits);
         let estimators = scales.map(|scale| estimators.get(&scale));
         let mut amplitudes = vec![[0.0; 3]; self.count as usize];
@@ -94,7 +102,7 @@ impl Draws<'_> {
                 let mut stream = Stream::new(seed, x, y, channel as u8);
                 let mut device = match good {
                     Countable::Whole(good) => {
-                        let problem = Problem {
+                        let problem = CountingProblem {
                             good: good[place][channel],
                             total: self.total,
                         };
@@ -109,7 +117,7 @@ impl Draws<'_> {
                 queries[channel] += estimate.queries;
             }
         }
-        Ok(Drawn {
+        Ok(PixelEstimates {
             amplitudes,
             queries,
         })

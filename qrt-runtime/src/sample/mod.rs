@@ -9,13 +9,13 @@ mod spread;
 mod sum;
 mod tally;
 
-pub(crate) use drawn::{Countable, Drawn, Draws};
+pub use drawn::{Countable, Draws, PixelEstimates};
 pub use error::SampleError;
 pub use spread::spread;
-pub(crate) use sum::Sum;
-pub use tally::{Tally, counted_tallies, tallies};
+pub use sum::Sum;
+pub use tally::{Tally, tallies};
 
-use crate::path_machines::Real;
+use crate::path_machines::PathMachine;
 use crate::workers::Workers;
 
 /// The mean of a pixel's paths, by pixel and channel.
@@ -28,7 +28,7 @@ pub type Means = Vec<[f64; 3]>;
 /// # Errors
 /// See [`SampleError`].
 pub fn prefix_means(
-    real: &Real,
+    real: &dyn PathMachine,
     pixels: &[[u32; 2]],
     bits: &[u32],
     workers: &Workers<'_>,

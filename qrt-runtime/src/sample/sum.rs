@@ -10,7 +10,7 @@ const BLOCK: usize = 256;
 
 /// A sum of colours, which are added in the order of their path indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Sum {
+pub struct Sum {
     /// The sum of the complete blocks.
     total: f64,
     /// The sums of the current block.
@@ -21,7 +21,7 @@ pub(crate) struct Sum {
 
 impl Sum {
     /// Adds the next colours.
-    pub(crate) fn add(&mut self, mut colours: &[f64]) {
+    pub fn add(&mut self, mut colours: &[f64]) {
         while !colours.is_empty() {
             let (now, later) = colours.split_at(colours.len().min(BLOCK - self.filled));
             let lane = self.filled % LANES;
@@ -45,7 +45,7 @@ impl Sum {
     }
 
     /// The sum so far.
-    pub(crate) fn value(&self) -> f64 {
+    pub fn value(&self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.lanes;
         self.total + (((a + e) + (c + g)) + ((b + f) + (d + h)))
     }
@@ -64,7 +64,7 @@ impl Sum {
     }
 
     /// Decodes a sum from words; `None` if they are not those of a sum.
-    pub(crate) fn of_words(words: &[u64; Self::WORDS]) -> Option<Self> {
+    pub(crate) fn decode(words: &[u64; Self::WORDS]) -> Option<Self> {
         let [total, lanes @ .., filled] = *words;
         Some(Self {
             total: f64::from_bits(total),

@@ -1,7 +1,7 @@
 //! Sums over the paths of pixels, on all threads.
 
 use super::{SampleError, Sum};
-use crate::path_machines::{OracleMachine, Real};
+use crate::path_machines::{PathMachine, Traced};
 use crate::workers::Workers;
 use qrt_counting::{Comparators, Octaves};
 use rayon::prelude::*;
@@ -23,7 +23,7 @@ pub struct Tally {
 
 impl Tally {
     /// Adds the sums over later paths of the same pixel, counted against the same comparators.
-    pub(crate) fn add(&mut self, later: &Self) {
+    pub fn add(&mut self, later: &Self) {
         for (sum, more) in self.colour.iter_mut().zip(later.colour) {
             *sum += more;
         }
@@ -39,43 +39,36 @@ impl Tally {
     }
 }
 
-/// Sums the paths `ids` of `pixels` in real arithmetic, and counts them against each of
-/// `comparators`, channel by channel.
+/// Sums the paths `ids` of `pixels`. A machine in floating point sums their colours, and counts them
+/// against each of `comparators`, channel by channel. The machine of an oracle counts them against the
+/// oracle's own comparators, which must be the only ones in `comparators`, and sums no colours.
 ///
 /// # Errors
-/// See [`SampleError`].
+/// If the work is cancelled, or the circuit is not a valid oracle.
 pub fn tallies(
-    real: &Real,
+    machine: &dyn PathMachine,
     pixels: &[[u32; 2]],
     ids: Range<u64>,
     comparators: &[[Comparators; 3]],
     workers: &Workers<'_>,
 ) -> Result<Vec<Tally>, SampleError> {
     in_runs(pixels, ids, workers, |pixels, ids| {
-        let none = Tally {
-            good: vec![[0; 3]; comparators.len()],
-            octaves: match comparators.first() {
-                Some(first) => first.each_ref().map(|c| Octaves::new(c.bits())),
-                None => Default::default(),
-            },
-            ..Tally::default()
-        };
+        let none = Tally::empty(comparators);
         let mut tallies = vec![none; pixels.len()];
         let mut sums = vec![[Sum::default(); 3]; pixels.len()];
-        real.trace_range(pixels, ids, |block| {
-            let tally = &mut tallies[block.pixel];
-            for (channel, colours) in block.colours.into_iter().enumerate() {
-                sums[block.pixel][channel].add(colours);
-                for (good, comparators) in tally.good.iter_mut().zip(comparators) {
-                    good[channel] += comparators[channel].good_total(colours);
+        machine.trace_paths(None, pixels, ids, &mut |traced| {
+            let tally = &mut tallies[traced.pixel()];
+            match traced {
+                Traced::Colours(block) => {
+                    let sums = &mut sums[block.pixel];
+                    for (sum, colours) in sums.iter_mut().zip(block.colours) {
+                        sum.add(colours);
+                    }
+                    tally.count_colours(block.colours, comparators);
                 }
-                if let Some(first) = comparators.first() {
-                    let octaves = &mut tally.octaves[channel];
-                    let counts = colours.iter().map(|&colour| first[channel].good(colour));
-                    counts.for_each(|good| octaves.add(good.into()));
-                }
+                Traced::Counts(finished) => tally.add_counts(finished.good),
             }
-        });
+        })?;
         for (tally, sums) in tallies.iter_mut().zip(sums) {
             tally.colour = sums.map(|sum| sum.value());
         }
@@ -83,38 +76,45 @@ pub fn tallies(
     })
 }
 
-/// Sums the paths `ids` of `pixels` as a scene's oracle counts them: with one register of
-/// comparators, the oracle's own, and without colours.
-///
-/// # Errors
-/// If the work is cancelled, or the circuit is not a valid oracle.
-pub fn counted_tallies(
-    machine: &OracleMachine,
-    pixels: &[[u32; 2]],
-    ids: Range<u64>,
-    workers: &Workers<'_>,
-) -> Result<Vec<Tally>, SampleError> {
-    in_runs(pixels, ids, workers, |pixels, ids| {
-        let bits = machine.oracle().comparator_bits();
-        let none = Tally {
-            good: vec![[0; 3]],
-            octaves: [(); 3].map(|()| Octaves::new(bits)),
-            ..Tally::default()
+impl Tally {
+    /// A tally of no paths, for these registers of comparators.
+    pub fn empty(comparators: &[[Comparators; 3]]) -> Self {
+        let first = comparators.first();
+        Self {
+            colour: [0.0; 3],
+            good: vec![[0; 3]; comparators.len()],
+            octaves: first.map_or_else(Default::default, |first| {
+                first.each_ref().map(|c| Octaves::new(c.bits()))
+            }),
+        }
+    }
+
+    fn count_colours(&mut self, colours: [&[f64]; 3], comparators: &[[Comparators; 3]]) {
+        for (channel, colours) in colours.into_iter().enumerate() {
+            for (good, comparators) in self.good.iter_mut().zip(comparators) {
+                good[channel] += comparators[channel].good_total(colours);
+            }
+            if let Some(first) = comparators.first() {
+                let octaves = &mut self.octaves[channel];
+                let counts = colours.iter().map(|&colour| first[channel].good(colour));
+                counts.for_each(|good| octaves.add(good.into()));
+            }
+        }
+    }
+
+    fn add_counts(&mut self, counts: [&[i64]; 3]) {
+        let Some(sums) = self.good.first_mut() else {
+            return;
         };
-        let mut tallies = vec![none; pixels.len()];
-        machine.trace(pixels, ids, |finished| {
-            let tally = &mut tallies[finished.pixel];
-            for (sum, good) in tally.good[0].iter_mut().zip(finished.good) {
-                *sum += good.iter().sum::<i64>().cast_unsigned();
+        for (sum, good) in sums.iter_mut().zip(counts) {
+            *sum += good.iter().sum::<i64>().cast_unsigned();
+        }
+        for (octaves, good) in self.octaves.iter_mut().zip(counts) {
+            for good in good {
+                octaves.add(good.cast_unsigned());
             }
-            for (octaves, good) in tally.octaves.iter_mut().zip(finished.good) {
-                for good in good {
-                    octaves.add(good.cast_unsigned());
-                }
-            }
-        })?;
-        Ok(tallies)
-    })
+        }
+    }
 }
 
 /// Cuts the work into runs of paths, or of pixels with few paths, and adds their tallies in order.

@@ -26,7 +26,7 @@ impl Search {
 
     /// Records the oracle's answer for a guessed face: `meets` is true if the ray meets it. Costs
     /// one query.
-    pub fn guess(&mut self, meets: bool, guess: Candidate) {
+    pub(crate) fn guess(&mut self, meets: bool, guess: Candidate) {
         self.queries += 1;
         if meets {
             self.best = Some(guess);

@@ -3,10 +3,11 @@
 use super::{Rounds, Search};
 use crate::named::named;
 use crate::path_machines::{
-    Answers, Asked, Candidate, Defect, NearestMachine, PathRun, PrimaryHits,
+    Answers, Candidate, Defect, NearestMachine, NearestQuery, PathRun, PrimaryHits,
 };
 use qrt_counting::random::Stream;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Number of successive paths in a chain: each takes the hit of the path before it as its first
 /// guess. Chains begin at multiples of this number. Blocks of paths and the paths of a pixel are
@@ -31,6 +32,7 @@ const CHANNEL: u8 = 16;
 named! {
     /// The first guess of a search.
     #[derive(Default)]
+    #[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
     pub enum Guess {
         /// No guess: the search begins with its first round.
         Random = "random",
@@ -55,17 +57,34 @@ type Found = (Option<Candidate>, u64);
 
 /// Finds the primary hits of paths: see [`PrimaryHits`].
 pub struct FoundHits {
-    machine: NearestMachine,
+    machine: Arc<NearestMachine>,
     method: Method,
     seed: u64,
+}
+
+/// The place of a path on the film, ordered by row, path index and column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct PathPlace {
+    row: u32,
+    id: u64,
+    column: u32,
+}
+
+/// The primary hit of a lane's path.
+struct LaneHit {
+    lane: usize,
+    /// The hit; `None` if the ray meets nothing.
+    hit: Option<Candidate>,
+    /// Number of queries of the search.
+    queries: u64,
 }
 
 impl FoundHits {
     /// Creates a finder that queries `machine` by `method`. Draws are keyed by `seed`, pixel and
     /// path.
-    pub fn new(machine: NearestMachine, method: Method, seed: u64) -> Self {
+    pub fn new(machine: impl Into<Arc<NearestMachine>>, method: Method, seed: u64) -> Self {
         Self {
-            machine,
+            machine: machine.into(),
             method,
             seed,
         }
@@ -81,7 +100,7 @@ impl FoundHits {
     fn search(
         &self,
         rounds: &Rounds,
-        rays: &[Asked],
+        rays: &[NearestQuery],
         guesses: &[Option<u32>],
     ) -> Result<Vec<Found>, Defect> {
         let mut answers = Answers::default();
@@ -95,9 +114,9 @@ impl FoundHits {
         let mut open: Vec<usize> = (0..rays.len()).collect();
         let mut first = true;
         while !open.is_empty() {
-            let asked: Vec<Asked> = open
+            let asked: Vec<NearestQuery> = open
                 .iter()
-                .map(|&ray| Asked {
+                .map(|&ray| NearestQuery {
                     best: searches[ray].nearest(),
                     ..rays[ray]
                 })
@@ -128,7 +147,7 @@ impl FoundHits {
     }
 
     /// Finds the nearest face of each ray by querying all faces.
-    fn exhaust(&self, rays: &[Asked]) -> Result<Vec<Found>, Defect> {
+    fn exhaust(&self, rays: &[NearestQuery]) -> Result<Vec<Found>, Defect> {
         let mut answers = Answers::default();
         self.machine.ask(rays, &mut answers)?;
         let least = |ray: usize| {
@@ -145,7 +164,7 @@ impl FoundHits {
     }
 
     /// Finds the nearest face of each ray, for any number of rays, and counts the queries of each.
-    fn all(&self, rays: &[Asked], guesses: &[Option<u32>]) -> Result<Vec<Found>, Defect> {
+    fn all(&self, rays: &[NearestQuery], guesses: &[Option<u32>]) -> Result<Vec<Found>, Defect> {
         // Number of rays whose answers fit into memory together.
         let together = (STATES / self.machine.oracle().states()).max(1);
         let mut found = Vec::with_capacity(rays.len());
@@ -158,43 +177,46 @@ impl FoundHits {
         Ok(found)
     }
 
-    /// Finds the hits of the lanes that begin a chain: the lane, its hit, and its queries.
-    fn chains_first(
-        &self,
-        lanes: &[(usize, Asked)],
-    ) -> Result<Vec<(usize, Option<Candidate>, u64)>, Defect> {
-        // The lane by row, path and column; `None` for a path of a pixel that was not requested.
-        let mut firsts: BTreeMap<(u32, u64, u32), Option<usize>> = BTreeMap::new();
-        for (lane, &(_, Asked { pixel, id, .. })) in lanes.iter().enumerate() {
+    /// Finds the hits of the lanes that begin a chain.
+    fn chains_first(&self, lanes: &[(usize, NearestQuery)]) -> Result<Vec<LaneHit>, Defect> {
+        // The lane of each ray; `None` for a path of a pixel that was not requested.
+        let mut firsts: BTreeMap<PathPlace, Option<usize>> = BTreeMap::new();
+        for (lane, &(_, NearestQuery { pixel, id, .. })) in lanes.iter().enumerate() {
             if (id as usize).is_multiple_of(CHAIN) {
-                let [x, y] = pixel;
-                for before in x - x % ROW..x {
-                    firsts.entry((y, id, before)).or_insert(None);
+                let [column, row] = pixel;
+                for column in column - column % ROW..column {
+                    firsts.entry(PathPlace { row, id, column }).or_insert(None);
                 }
-                firsts.insert((y, id, x), Some(lane));
+                firsts.insert(PathPlace { row, id, column }, Some(lane));
             }
         }
-        let mut met: BTreeMap<(u32, u64, u32), u32> = BTreeMap::new();
+        let mut met: BTreeMap<PathPlace, u32> = BTreeMap::new();
         let mut found = Vec::new();
         for column in 0..ROW {
-            let now = firsts.iter().filter(|((_, _, x), _)| x % ROW == column);
+            let now = firsts
+                .iter()
+                .filter(|(place, _)| place.column % ROW == column);
             let (places, lanes): (Vec<_>, Vec<_>) = now.unzip();
-            let guess = |&&(y, id, x): &&(u32, u64, u32)| {
-                let before = x.checked_sub(1).filter(|_| column > 0)?;
-                met.get(&(y, id, before)).copied()
+            let guess = |&&place: &&PathPlace| {
+                let before = place.column.checked_sub(1).filter(|_| column > 0)?;
+                let before = PathPlace {
+                    column: before,
+                    ..place
+                };
+                met.get(&before).copied()
             };
             let guesses: Vec<Option<u32>> = places.iter().map(guess).collect();
-            let ray = |&&(y, id, x): &&(u32, u64, u32)| Asked {
-                pixel: [x, y],
-                id,
+            let ray = |place: &&PathPlace| NearestQuery {
+                pixel: [place.column, place.row],
+                id: place.id,
                 best: None,
             };
-            let rays: Vec<Asked> = places.iter().map(ray).collect();
-            for ((&&place, &lane), (hit, asked)) in
+            let rays: Vec<NearestQuery> = places.iter().map(ray).collect();
+            for ((&&place, &lane), (hit, queries)) in
                 places.iter().zip(lanes).zip(self.all(&rays, &guesses)?)
             {
                 met.extend(hit.map(|hit| (place, hit.primitive)));
-                found.extend(lane.map(|lane| (lane, hit, asked)));
+                found.extend(lane.map(|lane| LaneHit { lane, hit, queries }));
             }
         }
         Ok(found)
@@ -206,7 +228,7 @@ impl PrimaryHits for FoundHits {
         let none = self.machine.oracle().faces() as u64;
         let number = |hit: Option<Candidate>| hit.map_or(none, |hit| u64::from(hit.primitive));
         // The run and the ray of each lane.
-        let lanes: Vec<(usize, Asked)> = runs
+        let lanes: Vec<(usize, NearestQuery)> = runs
             .iter()
             .enumerate()
             .flat_map(|(run, paths)| {
@@ -215,7 +237,7 @@ impl PrimaryHits for FoundHits {
                     let pixel = paths.pixel;
                     (
                         run,
-                        Asked {
+                        NearestQuery {
                             pixel,
                             id,
                             best: None,
@@ -230,8 +252,8 @@ impl PrimaryHits for FoundHits {
             queries[lanes[lane].0] += asked;
         };
         if chained {
-            for (lane, hit, asked) in self.chains_first(&lanes)? {
-                store(lane, hit, asked, hits);
+            for LaneHit { lane, hit, queries } in self.chains_first(&lanes)? {
+                store(lane, hit, queries, hits);
             }
         }
         // Each step searches for the lanes at the same place of their chains together.
@@ -239,7 +261,7 @@ impl PrimaryHits for FoundHits {
         for step in steps {
             let now = |lane: &usize| !chained || lanes[*lane].1.id as usize % CHAIN == step;
             let now: Vec<usize> = (0..lanes.len()).filter(now).collect();
-            let rays: Vec<Asked> = now.iter().map(|&lane| lanes[lane].1).collect();
+            let rays: Vec<NearestQuery> = now.iter().map(|&lane| lanes[lane].1).collect();
             let guess = |&lane: &usize| {
                 let before = lane.checked_sub(1).filter(|_| chained)?;
                 let one_run = lanes[before].0 == lanes[lane].0;

@@ -102,7 +102,7 @@ fn note(duration: Duration) -> String {
          \n    [profile.dev.package.qrt-counting]\n    opt-level = 3\n\
          \n    [profile.dev.package.qrt-machines]\n    opt-level = 3\n\
          \n    [profile.dev.package.qrt-runtime]\n    opt-level = 3\n\n\
-         (`Options {{ quiet: true, .. }}` suppresses this note.)\n",
+         (`RenderOptions {{ quiet: true, .. }}` suppresses this note.)\n",
         duration.as_secs()
     )
 }

@@ -1,18 +1,18 @@
 //! Builds expressions in which equal subexpressions are one node.
 
-use super::{Expr, Id, Node};
+use super::{Expr, ExprNode, Id};
 use std::collections::HashMap;
 
 /// Nodes under construction. The map is only looked up, never walked, so its order cannot matter.
 #[derive(Default)]
 pub(super) struct Arena {
-    nodes: Vec<Node>,
+    nodes: Vec<ExprNode>,
     known: HashMap<[u64; 5], Id>,
 }
 
 impl Arena {
     /// Adds `node`, unless there is an equal one, and returns its index.
-    pub(super) fn push(&mut self, node: Node) -> Id {
+    pub(super) fn push(&mut self, node: ExprNode) -> Id {
         *self.known.entry(node.key()).or_insert_with(|| {
             self.nodes.push(node);
             Id(self.nodes.len() as u32 - 1)
@@ -21,7 +21,7 @@ impl Arena {
 
     /// Adds a number.
     pub(super) fn number(&mut self, value: f64) -> Id {
-        self.push(Node::Number(value))
+        self.push(ExprNode::Number(value))
     }
 
     /// Adds the nodes of `expr`, and returns the index of its root in this arena.
@@ -35,7 +35,7 @@ impl Arena {
     }
 
     /// A node that was pushed.
-    pub(super) fn node(&self, id: Id) -> Node {
+    pub(super) fn node(&self, id: Id) -> ExprNode {
         self.nodes[id.index()]
     }
 
@@ -74,7 +74,7 @@ impl Expr {
     }
 }
 
-impl Node {
+impl ExprNode {
     /// The operands of the node.
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
         let none = Id(0);

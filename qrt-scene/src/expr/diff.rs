@@ -1,7 +1,7 @@
 //! Exact symbolic derivatives.
 
 use super::arena::Arena;
-use super::{Expr, Function, Id, Node, Variable};
+use super::{Expr, ExprNode, Function, Id, Variable};
 
 impl Expr {
     /// The derivative with respect to `variable`, as the rules give it: [`Expr::simplify`] makes it
@@ -33,7 +33,7 @@ impl Expr {
                 .zip(operands)
                 .for_each(|(slot, s)| *slot = s);
             let result = match here {
-                Node::Variable(v) if v == variable => Some(rules.arena.number(1.0)),
+                ExprNode::Variable(v) if v == variable => Some(rules.arena.number(1.0)),
                 _ if slope.iter().all(Option::is_none) => None,
                 _ => rules.derivative(id, here, slope),
             };
@@ -53,44 +53,49 @@ struct Rules {
 
 impl Rules {
     /// Returns the derivative of `node`, whose index is `id`, from those of its operands.
-    fn derivative(&mut self, id: Id, node: Node, [da, db, dx, dy]: [Option<Id>; 4]) -> Option<Id> {
+    fn derivative(
+        &mut self,
+        id: Id,
+        node: ExprNode,
+        [da, db, dx, dy]: [Option<Id>; 4],
+    ) -> Option<Id> {
         match node {
-            Node::Number(_) | Node::Variable(_) | Node::Powi(_, 0) => None,
-            Node::Neg(_) => self.neg(da),
-            Node::Add(..) => self.add(da, db),
-            Node::Sub(..) => self.sub(da, db),
-            Node::Mul(a, b) => {
+            ExprNode::Number(_) | ExprNode::Variable(_) | ExprNode::Powi(_, 0) => None,
+            ExprNode::Neg(_) => self.neg(da),
+            ExprNode::Add(..) => self.add(da, db),
+            ExprNode::Sub(..) => self.sub(da, db),
+            ExprNode::Mul(a, b) => {
                 let left = self.times(da, b);
                 let right = self.times(db, a);
                 self.add(left, right)
             }
             // (a/b)' = a'/b - (a/b) b'/b
-            Node::Div(_, b) => {
+            ExprNode::Div(_, b) => {
                 let left = self.over(da, b);
                 let right = self.times(db, id);
                 let right = self.over(right, b);
                 self.sub(left, right)
             }
-            Node::Powi(a, n) => {
+            ExprNode::Powi(a, n) => {
                 let lower = match n.checked_sub(1) {
                     Some(1) => a,
-                    Some(lower) => self.arena.push(Node::Powi(a, lower)),
+                    Some(lower) => self.arena.push(ExprNode::Powi(a, lower)),
                     // `i32::MIN` has no predecessor: use a^n / a.
-                    None => self.arena.push(Node::Div(id, a)),
+                    None => self.arena.push(ExprNode::Div(id, a)),
                 };
                 let slope = self.times(da, lower);
                 let n = self.arena.number(n.into());
                 self.times(slope, n)
             }
             // b a^(b-1) a' + a^b log(a) b'
-            Node::Pow(a, b) => {
+            ExprNode::Pow(a, b) => {
                 let one = self.arena.number(1.0);
-                let lower = self.arena.push(Node::Sub(b, one));
-                let power = self.arena.push(Node::Pow(a, lower));
+                let lower = self.arena.push(ExprNode::Sub(b, one));
+                let power = self.arena.push(ExprNode::Pow(a, lower));
                 let left = self.times(da, power);
                 let left = self.times(left, b);
                 let right = if db.is_some() {
-                    let log = self.arena.push(Node::Function(Function::Log, a));
+                    let log = self.arena.push(ExprNode::Function(Function::Log, a));
                     let right = self.times(db, log);
                     self.times(right, id)
                 } else {
@@ -98,28 +103,28 @@ impl Rules {
                 };
                 self.add(left, right)
             }
-            Node::Sqrt(_) => {
+            ExprNode::Sqrt(_) => {
                 let two = self.arena.number(2.0);
-                let twice = self.arena.push(Node::Mul(two, id));
+                let twice = self.arena.push(ExprNode::Mul(two, id));
                 self.over(da, twice)
             }
-            Node::Abs(a) => {
+            ExprNode::Abs(a) => {
                 let zero = self.arena.number(0.0);
                 let negative = self.neg(da);
                 self.select(a, zero, negative, da)
             }
-            Node::Min(a, b) => self.select(a, b, da, db),
-            Node::Max(a, b) => self.select(a, b, db, da),
-            Node::IfLess(a, b, ..) => self.select(a, b, dx, dy),
-            Node::Function(f, a) => self.function(f, id, a, da),
+            ExprNode::Min(a, b) => self.select(a, b, da, db),
+            ExprNode::Max(a, b) => self.select(a, b, db, da),
+            ExprNode::IfLess(a, b, ..) => self.select(a, b, dx, dy),
+            ExprNode::Function(f, a) => self.function(f, id, a, da),
             // (b a' - a b') / (a^2 + b^2)
-            Node::Atan2(a, b) => {
+            ExprNode::Atan2(a, b) => {
                 let left = self.times(da, b);
                 let right = self.times(db, a);
                 let top = self.sub(left, right);
-                let a = self.arena.push(Node::Powi(a, 2));
-                let b = self.arena.push(Node::Powi(b, 2));
-                let norm = self.arena.push(Node::Add(a, b));
+                let a = self.arena.push(ExprNode::Powi(a, 2));
+                let b = self.arena.push(ExprNode::Powi(b, 2));
+                let norm = self.arena.push(ExprNode::Add(a, b));
                 self.over(top, norm)
             }
         }
@@ -127,26 +132,26 @@ impl Rules {
 
     fn function(&mut self, f: Function, id: Id, a: Id, da: Option<Id>) -> Option<Id> {
         let one = self.arena.number(1.0);
-        let square = |rules: &mut Self, x| rules.arena.push(Node::Powi(x, 2));
+        let square = |rules: &mut Self, x| rules.arena.push(ExprNode::Powi(x, 2));
         match f {
             Function::Sin => {
-                let cos = self.arena.push(Node::Function(Function::Cos, a));
+                let cos = self.arena.push(ExprNode::Function(Function::Cos, a));
                 self.times(da, cos)
             }
             Function::Cos => {
-                let sin = self.arena.push(Node::Function(Function::Sin, a));
+                let sin = self.arena.push(ExprNode::Function(Function::Sin, a));
                 let slope = self.times(da, sin);
                 self.neg(slope)
             }
             Function::Tan => {
-                let cos = self.arena.push(Node::Function(Function::Cos, a));
+                let cos = self.arena.push(ExprNode::Function(Function::Cos, a));
                 let cos = square(self, cos);
                 self.over(da, cos)
             }
             Function::Asin | Function::Acos => {
                 let a = square(self, a);
-                let rest = self.arena.push(Node::Sub(one, a));
-                let root = self.arena.push(Node::Sqrt(rest));
+                let rest = self.arena.push(ExprNode::Sub(one, a));
+                let root = self.arena.push(ExprNode::Sqrt(rest));
                 let slope = self.over(da, root);
                 if f == Function::Acos {
                     self.neg(slope)
@@ -156,7 +161,7 @@ impl Rules {
             }
             Function::Atan => {
                 let a = square(self, a);
-                let norm = self.arena.push(Node::Add(one, a));
+                let norm = self.arena.push(ExprNode::Add(one, a));
                 self.over(da, norm)
             }
             Function::Exp => self.times(da, id),
@@ -165,19 +170,19 @@ impl Rules {
     }
 
     fn neg(&mut self, a: Option<Id>) -> Option<Id> {
-        a.map(|a| self.arena.push(Node::Neg(a)))
+        a.map(|a| self.arena.push(ExprNode::Neg(a)))
     }
 
     fn add(&mut self, a: Option<Id>, b: Option<Id>) -> Option<Id> {
         match (a, b) {
-            (Some(a), Some(b)) => Some(self.arena.push(Node::Add(a, b))),
+            (Some(a), Some(b)) => Some(self.arena.push(ExprNode::Add(a, b))),
             _ => a.or(b),
         }
     }
 
     fn sub(&mut self, a: Option<Id>, b: Option<Id>) -> Option<Id> {
         match (a, b) {
-            (Some(a), Some(b)) => Some(self.arena.push(Node::Sub(a, b))),
+            (Some(a), Some(b)) => Some(self.arena.push(ExprNode::Sub(a, b))),
             (None, b) => self.neg(b),
             (a, None) => a,
         }
@@ -185,13 +190,13 @@ impl Rules {
 
     fn times(&mut self, a: Option<Id>, b: Id) -> Option<Id> {
         a.map(|a| match self.arena.node(a) {
-            Node::Number(1.0) => b,
-            _ => self.arena.push(Node::Mul(a, b)),
+            ExprNode::Number(1.0) => b,
+            _ => self.arena.push(ExprNode::Mul(a, b)),
         })
     }
 
     fn over(&mut self, a: Option<Id>, b: Id) -> Option<Id> {
-        a.map(|a| self.arena.push(Node::Div(a, b)))
+        a.map(|a| self.arena.push(ExprNode::Div(a, b)))
     }
 
     fn select(&mut self, a: Id, b: Id, x: Option<Id>, y: Option<Id>) -> Option<Id> {
@@ -201,7 +206,7 @@ impl Rules {
         let zero = self.arena.number(0.0);
         Some(
             self.arena
-                .push(Node::IfLess(a, b, x.unwrap_or(zero), y.unwrap_or(zero))),
+                .push(ExprNode::IfLess(a, b, x.unwrap_or(zero), y.unwrap_or(zero))),
         )
     }
 }

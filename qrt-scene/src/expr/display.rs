@@ -1,6 +1,6 @@
 //! Writes an expression so that parsing it gives it back.
 
-use super::{Expr, Id, Node};
+use super::{Expr, ExprNode, Id};
 use std::fmt;
 
 const SUM: u8 = 1;
@@ -45,8 +45,8 @@ impl fmt::Display for Expr {
                         stack.push(Piece::Text(")"));
                     }
                     match node {
-                        Node::Number(value) => write!(f, "{}", Number(value))?,
-                        Node::Variable(variable) => f.write_str(variable.name())?,
+                        ExprNode::Number(value) => write!(f, "{}", Number(value))?,
+                        ExprNode::Variable(variable) => f.write_str(variable.name())?,
                         _ => stack.extend(pieces.into_iter().rev()),
                     }
                 }
@@ -57,7 +57,7 @@ impl fmt::Display for Expr {
 }
 
 /// Returns the binding strength of a node, and its pieces; a number or a variable has none.
-fn layout(node: Node) -> (u8, Vec<Piece>) {
+fn layout(node: ExprNode) -> (u8, Vec<Piece>) {
     use Piece::{Integer, Text};
     let operand = Piece::Node;
     let call = |name, operands: &[Id]| {
@@ -72,28 +72,28 @@ fn layout(node: Node) -> (u8, Vec<Piece>) {
         (ATOM, pieces)
     };
     match node {
-        Node::Number(value) if value.is_sign_negative() => (SIGN, Vec::new()),
-        Node::Number(_) | Node::Variable(_) => (ATOM, Vec::new()),
-        Node::Neg(a) => (SIGN, vec![Text("-"), operand(a, SIGN)]),
-        Node::Add(a, b) => (SUM, vec![operand(a, SUM), Text(" + "), operand(b, PRODUCT)]),
-        Node::Sub(a, b) => (SUM, vec![operand(a, SUM), Text(" - "), operand(b, PRODUCT)]),
-        Node::Mul(a, b) => (
+        ExprNode::Number(value) if value.is_sign_negative() => (SIGN, Vec::new()),
+        ExprNode::Number(_) | ExprNode::Variable(_) => (ATOM, Vec::new()),
+        ExprNode::Neg(a) => (SIGN, vec![Text("-"), operand(a, SIGN)]),
+        ExprNode::Add(a, b) => (SUM, vec![operand(a, SUM), Text(" + "), operand(b, PRODUCT)]),
+        ExprNode::Sub(a, b) => (SUM, vec![operand(a, SUM), Text(" - "), operand(b, PRODUCT)]),
+        ExprNode::Mul(a, b) => (
             PRODUCT,
             vec![operand(a, PRODUCT), Text("*"), operand(b, SIGN)],
         ),
-        Node::Div(a, b) => (
+        ExprNode::Div(a, b) => (
             PRODUCT,
             vec![operand(a, PRODUCT), Text("/"), operand(b, SIGN)],
         ),
-        Node::Powi(a, n) => (POWER, vec![operand(a, ATOM), Text("^"), Integer(n)]),
-        Node::Pow(a, b) => call("pow", &[a, b]),
-        Node::Sqrt(a) => call("sqrt", &[a]),
-        Node::Abs(a) => call("abs", &[a]),
-        Node::Min(a, b) => call("min", &[a, b]),
-        Node::Max(a, b) => call("max", &[a, b]),
-        Node::Function(f, a) => call(f.name(), &[a]),
-        Node::Atan2(a, b) => call("atan2", &[a, b]),
-        Node::IfLess(a, b, x, y) => call("if_less", &[a, b, x, y]),
+        ExprNode::Powi(a, n) => (POWER, vec![operand(a, ATOM), Text("^"), Integer(n)]),
+        ExprNode::Pow(a, b) => call("pow", &[a, b]),
+        ExprNode::Sqrt(a) => call("sqrt", &[a]),
+        ExprNode::Abs(a) => call("abs", &[a]),
+        ExprNode::Min(a, b) => call("min", &[a, b]),
+        ExprNode::Max(a, b) => call("max", &[a, b]),
+        ExprNode::Function(f, a) => call(f.name(), &[a]),
+        ExprNode::Atan2(a, b) => call("atan2", &[a, b]),
+        ExprNode::IfLess(a, b, x, y) => call("if_less", &[a, b, x, y]),
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Transcendental functions are libm's, so that the same scene gives the same bits on every machine.
 
-use super::{Expr, Function, Id, Node, VariableSet, Variables};
+use super::{Expr, ExprNode, Function, Id, VariableSet, Variables};
 
 impl Expr {
     /// The expression's value: NaN or infinite where it has none.
@@ -51,8 +51,8 @@ impl Expr {
                 continue;
             }
             let untaken = match *node {
-                Node::IfLess(a, b, ..) if values[a.index()] < values[b.index()] => Some(3),
-                Node::IfLess(..) => Some(2),
+                ExprNode::IfLess(a, b, ..) if values[a.index()] < values[b.index()] => Some(3),
+                ExprNode::IfLess(..) => Some(2),
                 _ => None,
             };
             for (place, id) in node.operands().enumerate() {
@@ -76,7 +76,7 @@ impl Expr {
         let mut sets: Vec<VariableSet> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let own = match *node {
-                Node::Variable(variable) => VariableSet::from_variable(variable),
+                ExprNode::Variable(variable) => VariableSet::from_variable(variable),
                 _ => VariableSet::EMPTY,
             };
             sets.push(
@@ -88,7 +88,7 @@ impl Expr {
     }
 }
 
-impl Node {
+impl ExprNode {
     /// The node's value, given those of its operands.
     pub fn value(&self, at: &Variables, of: impl Fn(Id) -> f64) -> f64 {
         match *self {

@@ -4,7 +4,7 @@
 //! Every operation returns an interval that encloses all its values for operands within theirs, or
 //! none if it has no value (the root of a negative number). Bounds are infinite if none is known.
 
-use super::{Expr, Function, Id, Node, Variable};
+use super::{Expr, ExprNode, Function, Id, Variable};
 
 /// All numbers from `lo` to `hi`, both included; no NaN; `lo <= hi`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl Expr {
     }
 }
 
-impl Node {
+impl ExprNode {
     fn range(&self, domain: &Domain, of: impl Fn(Id) -> Option<Interval>) -> Option<Interval> {
         match *self {
             Self::Number(value) => Some(Interval::point(value)),

@@ -24,8 +24,8 @@
 //!
 //! # The representation
 //!
-//! An [`Expr`] is a list of [`Node`]s whose operands stand earlier in the list, without two equal
-//! nodes: walking it in order evaluates every shared subexpression once.
+//! An [`Expr`] is a list of [`ExprNode`]s whose operands stand earlier in the list, without two
+//! equal nodes: walking it in order evaluates every shared subexpression once.
 
 mod arena;
 mod diff;
@@ -44,7 +44,7 @@ pub use interval::{Domain, Interval};
 pub use parse::{MAX_DEPTH, MAX_LENGTH, function_names};
 use std::ops;
 
-/// The index of a [`Node`] in [`Expr::nodes`].
+/// The index of a [`ExprNode`] in [`Expr::nodes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
 
@@ -74,7 +74,7 @@ impl Variable {
     /// All variables, in the order of their definition.
     pub const ALL: [Self; 5] = [Self::U, Self::V, Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a density of directions.
-    pub const ANGLES: [Self; 3] = [Self::CosI, Self::CosO, Self::CosA];
+    pub(crate) const ANGLES: [Self; 3] = [Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a map or a Jacobian.
     pub const SQUARE: [Self; 2] = [Self::U, Self::V];
 
@@ -101,7 +101,7 @@ impl VariableSet {
     pub const SQUARE: Self = Self(1 << Variable::U as u8 | 1 << Variable::V as u8);
 
     /// The set that holds `variable` alone.
-    pub fn from_variable(variable: Variable) -> Self {
+    pub(crate) fn from_variable(variable: Variable) -> Self {
         Self(1 << variable as u8)
     }
     /// True if the set holds `variable`.
@@ -196,7 +196,7 @@ impl Function {
 /// One operation; its operands are earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
-pub enum Node {
+pub enum ExprNode {
     /// A finite number.
     Number(f64),
     Variable(Variable),
@@ -223,7 +223,7 @@ pub enum Node {
 /// An expression. See the [module](self).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
-    nodes: Vec<Node>,
+    nodes: Vec<ExprNode>,
     root: Id,
 }
 
@@ -231,7 +231,7 @@ impl Expr {
     /// A constant; `None` unless it is finite.
     pub fn number(value: f64) -> Option<Self> {
         value.is_finite().then(|| Self {
-            nodes: vec![Node::Number(value)],
+            nodes: vec![ExprNode::Number(value)],
             root: Id(0),
         })
     }
@@ -239,7 +239,7 @@ impl Expr {
     /// The constant pi.
     pub fn pi() -> Self {
         Self {
-            nodes: vec![Node::Number(std::f64::consts::PI)],
+            nodes: vec![ExprNode::Number(std::f64::consts::PI)],
             root: Id(0),
         }
     }
@@ -247,13 +247,13 @@ impl Expr {
     /// A variable.
     pub fn variable(variable: Variable) -> Self {
         Self {
-            nodes: vec![Node::Variable(variable)],
+            nodes: vec![ExprNode::Variable(variable)],
             root: Id(0),
         }
     }
 
     /// The nodes; operands first, no two equal, all of them in use.
-    pub fn nodes(&self) -> &[Node] {
+    pub fn nodes(&self) -> &[ExprNode] {
         &self.nodes
     }
 
@@ -265,42 +265,42 @@ impl Expr {
     /// The expression's value, where it is a plain number.
     pub fn constant(&self) -> Option<f64> {
         match self.nodes[self.root.index()] {
-            Node::Number(value) => Some(value),
+            ExprNode::Number(value) => Some(value),
             _ => None,
         }
     }
 
     /// The absolute value of this expression.
     pub fn abs(&self) -> Self {
-        self.with(self, |a, _| Node::Abs(a))
+        self.with(self, |a, _| ExprNode::Abs(a))
     }
 
     /// The greater of this expression and 0.
     pub fn positive(&self) -> Self {
-        let zero = self.with(self, |_, _| Node::Number(0.0));
-        self.with(&zero, Node::Max)
+        let zero = self.with(self, |_, _| ExprNode::Number(0.0));
+        self.with(&zero, ExprNode::Max)
     }
 
     /// The square root of this expression.
     pub fn sqrt(&self) -> Self {
-        self.with(self, |a, _| Node::Sqrt(a))
+        self.with(self, |a, _| ExprNode::Sqrt(a))
     }
 
     /// The function `f` of this expression.
     pub fn apply(&self, f: Function) -> Self {
-        self.with(self, |a, _| Node::Function(f, a))
+        self.with(self, |a, _| ExprNode::Function(f, a))
     }
 
     /// An integer power of this expression.
     pub fn powi(&self, power: i32) -> Self {
-        self.with(self, |a, _| Node::Powi(a, power))
+        self.with(self, |a, _| ExprNode::Powi(a, power))
     }
 
     /// `then` where this expression is less than `other`, `otherwise` elsewhere.
     pub fn if_less(&self, other: &Self, then: &Self, otherwise: &Self) -> Self {
         let mut arena = Arena::default();
         let [a, b, x, y] = [self, other, then, otherwise].map(|operand| arena.import(operand));
-        let root = arena.push(Node::IfLess(a, b, x, y));
+        let root = arena.push(ExprNode::IfLess(a, b, x, y));
         arena.finish(root)
     }
 
@@ -311,7 +311,7 @@ impl Expr {
         let mut ids = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             ids.push(match *node {
-                Node::Variable(v) if v == variable => by,
+                ExprNode::Variable(v) if v == variable => by,
                 _ => arena.push(node.map_operands(|id| ids[id.index()])),
             });
         }
@@ -326,12 +326,12 @@ impl Expr {
             arena.finish(id)
         };
         match self.nodes[self.root.index()] {
-            Node::Div(a, b) => [part(a), part(b)],
+            ExprNode::Div(a, b) => [part(a), part(b)],
             _ => [self.clone(), Self::from(1)],
         }
     }
 
-    fn with(&self, other: &Self, node: impl Fn(Id, Id) -> Node) -> Self {
+    fn with(&self, other: &Self, node: impl Fn(Id, Id) -> ExprNode) -> Self {
         let mut arena = Arena::default();
         let a = arena.import(self);
         let b = arena.import(other);
@@ -343,7 +343,7 @@ impl Expr {
 impl From<i32> for Expr {
     fn from(value: i32) -> Self {
         Self {
-            nodes: vec![Node::Number(value.into())],
+            nodes: vec![ExprNode::Number(value.into())],
             root: Id(0),
         }
     }
@@ -352,34 +352,34 @@ impl From<i32> for Expr {
 impl ops::Neg for &Expr {
     type Output = Expr;
     fn neg(self) -> Expr {
-        self.with(self, |a, _| Node::Neg(a))
+        self.with(self, |a, _| ExprNode::Neg(a))
     }
 }
 
 impl ops::Add for &Expr {
     type Output = Expr;
     fn add(self, other: &Expr) -> Expr {
-        self.with(other, Node::Add)
+        self.with(other, ExprNode::Add)
     }
 }
 
 impl ops::Sub for &Expr {
     type Output = Expr;
     fn sub(self, other: &Expr) -> Expr {
-        self.with(other, Node::Sub)
+        self.with(other, ExprNode::Sub)
     }
 }
 
 impl ops::Mul for &Expr {
     type Output = Expr;
     fn mul(self, other: &Expr) -> Expr {
-        self.with(other, Node::Mul)
+        self.with(other, ExprNode::Mul)
     }
 }
 
 impl ops::Div for &Expr {
     type Output = Expr;
     fn div(self, other: &Expr) -> Expr {
-        self.with(other, Node::Div)
+        self.with(other, ExprNode::Div)
     }
 }

@@ -1,7 +1,7 @@
 //! Reads an [`Expr`] from text, or reports all problems of the text.
 
 use super::arena::Arena;
-use super::{Expr, Function, Id, Node, Variable};
+use super::{Expr, ExprNode, Function, Id, Variable};
 use crate::syntax::{Expression as Fault, Path, Problem, nearest};
 use std::ops::Range;
 
@@ -108,8 +108,8 @@ impl Parser<'_> {
             self.advance()?;
             let right = self.product()?;
             left = self.arena.push(match symbol {
-                '+' => Node::Add(left, right),
-                _ => Node::Sub(left, right),
+                '+' => ExprNode::Add(left, right),
+                _ => ExprNode::Sub(left, right),
             });
         }
         Ok(left)
@@ -126,8 +126,8 @@ impl Parser<'_> {
             }
             let right = self.signed()?;
             left = self.arena.push(match symbol {
-                '*' => Node::Mul(left, right),
-                _ => Node::Div(left, right),
+                '*' => ExprNode::Mul(left, right),
+                _ => ExprNode::Div(left, right),
             });
         }
         Ok(left)
@@ -140,8 +140,8 @@ impl Parser<'_> {
                 let operand = self.signed()?;
                 self.depth -= 1;
                 Ok(match self.arena.node(operand) {
-                    Node::Number(value) => self.arena.number(-value),
-                    _ => self.arena.push(Node::Neg(operand)),
+                    ExprNode::Number(value) => self.arena.number(-value),
+                    _ => self.arena.push(ExprNode::Neg(operand)),
                 })
             }
             Token::Symbol('+') => {
@@ -167,10 +167,10 @@ impl Parser<'_> {
 
     fn raise(&mut self, base: Id, exponent: Id) -> Id {
         match self.arena.node(exponent) {
-            Node::Number(n) if n == n.trunc() && n.abs() <= i32::MAX.into() => {
-                self.arena.push(Node::Powi(base, n as i32))
+            ExprNode::Number(n) if n == n.trunc() && n.abs() <= i32::MAX.into() => {
+                self.arena.push(ExprNode::Powi(base, n as i32))
             }
-            _ => self.arena.push(Node::Pow(base, exponent)),
+            _ => self.arena.push(ExprNode::Pow(base, exponent)),
         }
     }
 
@@ -209,7 +209,7 @@ impl Parser<'_> {
         }
         let variable = Variable::ALL.into_iter().find(|v| v.name() == name);
         if let Some(variable) = variable.filter(|variable| self.allowed.contains(variable)) {
-            return self.arena.push(Node::Variable(variable));
+            return self.arena.push(ExprNode::Variable(variable));
         }
         let allowed: Vec<_> = self.allowed.iter().map(|v| v.name()).collect();
         let owned = name.to_owned();
@@ -258,16 +258,16 @@ impl Parser<'_> {
         if let Some(f) = Function::ALL.into_iter().find(|f| f.name() == name)
             && let [a] = operands[..]
         {
-            return Ok(self.arena.push(Node::Function(f, a)));
+            return Ok(self.arena.push(ExprNode::Function(f, a)));
         }
         Ok(match (name, &operands[..]) {
-            ("sqrt", [a]) => self.arena.push(Node::Sqrt(*a)),
-            ("abs", [a]) => self.arena.push(Node::Abs(*a)),
-            ("atan2", [a, b]) => self.arena.push(Node::Atan2(*a, *b)),
-            ("min", [a, b]) => self.arena.push(Node::Min(*a, *b)),
-            ("max", [a, b]) => self.arena.push(Node::Max(*a, *b)),
+            ("sqrt", [a]) => self.arena.push(ExprNode::Sqrt(*a)),
+            ("abs", [a]) => self.arena.push(ExprNode::Abs(*a)),
+            ("atan2", [a, b]) => self.arena.push(ExprNode::Atan2(*a, *b)),
+            ("min", [a, b]) => self.arena.push(ExprNode::Min(*a, *b)),
+            ("max", [a, b]) => self.arena.push(ExprNode::Max(*a, *b)),
             ("pow", [a, b]) => self.raise(*a, *b),
-            ("if_less", [a, b, x, y]) => self.arena.push(Node::IfLess(*a, *b, *x, *y)),
+            ("if_less", [a, b, x, y]) => self.arena.push(ExprNode::IfLess(*a, *b, *x, *y)),
             _ => {
                 let what = Fault::Operands {
                     name: name.to_owned(),

@@ -10,7 +10,7 @@
 //! original has no value, the result may have one: `x/x` becomes 1. So a check that a formula is
 //! defined must use the formula as written.
 
-use super::{Domain, Expr, Function, Id, Interval, Node, Variable};
+use super::{Domain, Expr, ExprNode, Function, Id, Interval, Variable};
 use std::collections::HashMap;
 
 mod rules;
@@ -44,11 +44,11 @@ impl Expr {
 
 /// The rough cost of evaluation, in additions.
 fn cost(expr: &Expr) -> usize {
-    let weigh = |node: &Node| match node {
-        Node::Number(_) | Node::Variable(_) => 0,
-        Node::Div(..) | Node::Sqrt(_) => 4,
-        Node::Function(..) | Node::Pow(..) | Node::Atan2(..) => 16,
-        Node::Powi(_, n) => (32 - n.unsigned_abs().leading_zeros()) as usize,
+    let weigh = |node: &ExprNode| match node {
+        ExprNode::Number(_) | ExprNode::Variable(_) => 0,
+        ExprNode::Div(..) | ExprNode::Sqrt(_) => 4,
+        ExprNode::Function(..) | ExprNode::Pow(..) | ExprNode::Atan2(..) => 16,
+        ExprNode::Powi(_, n) => (32 - n.unsigned_abs().leading_zeros()) as usize,
         _ => 1,
     };
     expr.nodes().iter().map(weigh).sum()
@@ -193,26 +193,26 @@ fn negated(sum: &Sum) -> Sum {
 }
 
 impl Canon {
-    fn node(&mut self, node: Node, sums: &[Sum]) -> Option<Sum> {
+    fn node(&mut self, node: ExprNode, sums: &[Sum]) -> Option<Sum> {
         let of = |id: Id| &sums[id.index()];
         match node {
-            Node::Number(value) => number(value),
-            Node::Variable(variable) => Some(self.single(Atom::Variable(variable))),
-            Node::Neg(a) => Some(negated(of(a))),
-            Node::Add(a, b) => self.add(of(a).clone(), of(b)),
-            Node::Sub(a, b) => self.add(of(a).clone(), &negated(of(b))),
-            Node::Mul(a, b) => self.multiply(of(a), of(b)),
-            Node::Div(a, b) => self.divide(of(a), of(b)),
-            Node::Powi(a, n) => self.raise(of(a), n.into()),
-            Node::Sqrt(a) => self.raise(of(a), 0.5),
-            Node::Pow(a, b) => {
+            ExprNode::Number(value) => number(value),
+            ExprNode::Variable(variable) => Some(self.single(Atom::Variable(variable))),
+            ExprNode::Neg(a) => Some(negated(of(a))),
+            ExprNode::Add(a, b) => self.add(of(a).clone(), of(b)),
+            ExprNode::Sub(a, b) => self.add(of(a).clone(), &negated(of(b))),
+            ExprNode::Mul(a, b) => self.multiply(of(a), of(b)),
+            ExprNode::Div(a, b) => self.divide(of(a), of(b)),
+            ExprNode::Powi(a, n) => self.raise(of(a), n.into()),
+            ExprNode::Sqrt(a) => self.raise(of(a), 0.5),
+            ExprNode::Pow(a, b) => {
                 if let Some(exponent) = self.value(of(b)) {
                     return self.raise(of(a), exponent);
                 }
                 Some(self.single(Atom::Pow(of(a).clone(), of(b).clone())))
             }
-            Node::Abs(a) => self.abs(of(a)),
-            Node::Min(a, b) => {
+            ExprNode::Abs(a) => self.abs(of(a)),
+            ExprNode::Min(a, b) => {
                 let (below, above) = (self.range(of(a)), self.range(of(b)));
                 if of(a) == of(b) || below.hi <= above.lo {
                     return Some(of(a).clone());
@@ -222,7 +222,7 @@ impl Canon {
                 }
                 Some(self.single(Atom::Min(of(a).clone(), of(b).clone())))
             }
-            Node::Max(a, b) => {
+            ExprNode::Max(a, b) => {
                 let (below, above) = (self.range(of(a)), self.range(of(b)));
                 if of(a) == of(b) || below.lo >= above.hi {
                     return Some(of(a).clone());
@@ -232,7 +232,7 @@ impl Canon {
                 }
                 Some(self.single(Atom::Max(of(a).clone(), of(b).clone())))
             }
-            Node::IfLess(a, b, x, y) => {
+            ExprNode::IfLess(a, b, x, y) => {
                 let (left, right) = (self.range(of(a)), self.range(of(b)));
                 if left.hi < right.lo {
                     return Some(of(x).clone());
@@ -243,13 +243,13 @@ impl Canon {
                 let parts = [a, b, x, y].map(|id| of(id).clone());
                 Some(self.single(Atom::IfLess(Box::new(parts))))
             }
-            Node::Atan2(a, b) => {
+            ExprNode::Atan2(a, b) => {
                 if let (Some(a), Some(b)) = (self.value(of(a)), self.value(of(b))) {
                     return number(libm::atan2(a, b));
                 }
                 Some(self.single(Atom::Atan2(of(a).clone(), of(b).clone())))
             }
-            Node::Function(f, a) => self.function(f, of(a)),
+            ExprNode::Function(f, a) => self.function(f, of(a)),
         }
     }
 

@@ -48,7 +48,7 @@ fn equal_parts_are_one_node() {
     let products = e
         .nodes()
         .iter()
-        .filter(|n| matches!(n, Node::Mul(..)))
+        .filter(|n| matches!(n, ExprNode::Mul(..)))
         .count();
     assert_eq!(products, 2);
     for (index, node) in e.nodes().iter().enumerate() {

@@ -1,8 +1,13 @@
-//! From text to a scene: YAML, overrides of the command line, meshes.
+//! From text or constant data to a scene: YAML, overrides of the command line, meshes.
 
 mod files;
+mod gltf;
+mod items;
+mod mesh_files;
+pub mod meshes;
 pub mod obj;
 pub mod overrides;
+mod ply;
 pub mod yaml;
 
 use crate::scene::Scene;
@@ -12,6 +17,8 @@ use crate::syntax::{File, InvalidScene, Place, Problem, Problems, Report, Source
 use crate::valid::{self, ValidScene};
 pub use files::Files;
 pub(crate) use files::Unread;
+pub use items::{Item, from_items};
+pub use mesh_files::load_all;
 
 /// Maximum number of bytes of a scene file.
 pub const MAX_BYTES: u64 = 16 << 20;
@@ -161,7 +168,7 @@ fn decoded(
     mut problems: Problems,
 ) -> Result<ValidScene, Vec<Problem>> {
     let scene = Scene::decode(tree, &Place::ROOT, &mut problems);
-    let meshes = obj::load_all(&scene, files);
+    let meshes = mesh_files::load_all(&scene, files);
     valid::check(scene, &meshes, problems)
 }
 
@@ -202,7 +209,7 @@ impl Scene {
     /// # Errors
     /// All problems of the scene.
     pub fn validate(self, folder: &std::path::Path) -> Result<ValidScene, InvalidScene> {
-        let meshes = obj::load_all(&self, Files::of_folder(folder));
+        let meshes = mesh_files::load_all(&self, Files::of_folder(folder));
         valid::validate(self, &meshes)
     }
 

@@ -3,82 +3,31 @@
 //! `tobj` reads the shape, but it accepts invalid meshes (NaN vertices, faces of two corners),
 //! supports neither continued lines nor comments after a statement, and reports no line. So it
 //! reads through a `Scanner`, which checks each statement and passes vertices and faces on. The
-//! module `polygon` then cuts the faces into triangles.
+//! module `meshes` then cuts the faces into triangles.
 //!
-//! A material's `Kd` is the albedo of a Lambertian surface, and `Ke` its radiance. Highlights and
-//! transparency of an MTL file are ignored. `tobj` panics on a colour of one number, which is a
-//! grey, or of two, so `mtl` reads colours.
+//! The module `mtl` turns the statements of a material library into materials of the scene
+//! language. `tobj` would panic on a colour of one number, which is a grey, or of two.
 
 mod mtl;
-mod polygon;
 mod scan;
 #[cfg(test)]
 mod tests;
 
-use super::{Files, Unread};
-use crate::scene::meshes::{MOST_FACES, Meshes, ObjError, ObjFace, ObjMesh};
-use crate::scene::{Geometry, Scene};
+use super::Files;
+use super::meshes::{Collector, Faces, Library, MAX_BYTES, bytes_of, unread};
+use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace};
 use crate::syntax::{MeshFile, line_after, line_starts};
 use glam::DVec3;
 use mtl::Materials;
 use scan::Scanner;
 use std::borrow::Cow;
-use std::cell::Cell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
 use std::rc::Rc;
 
-/// The largest file that is read, in bytes: about five million triangles.
-pub const MAX_BYTES: u64 = 256 << 20;
-
-/// Maximum number of bytes of a scene's meshes and material libraries for each allowed face: 1 GiB
-/// in all, unless memory allows fewer faces.
-const BYTES_OF_FACE: u64 = 256;
-
-/// Reads the meshes that a scene names. Each file is read once, even if several entries name it.
-pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
-    let mut wanted = BTreeMap::<&str, BTreeSet<bool>>::new();
-    for primitive in &scene.geometry {
-        if let Geometry::Mesh(mesh) = primitive {
-            let kinds = wanted.entry(&mesh.obj).or_default();
-            kinds.insert(mesh.material.is_none());
-        }
-    }
-    let most_bytes = files.faces_allowed() as u64 * BYTES_OF_FACE;
-    let bytes_left = Cell::new(most_bytes);
-    let counted = |bytes: Rc<[u8]>| {
-        let left = bytes_left.get().checked_sub(bytes.len() as u64);
-        bytes_left.set(left.ok_or_else(|| {
-            let most = most_bytes;
-            MeshFile::ManyBytesInAll { most }
-        })?);
-        Ok(bytes)
-    };
-    let mut read = BTreeMap::new();
-    let mut library = |path: &Path| {
-        let bytes = || bytes_of(files, path, true).and_then(counted);
-        read.entry(path.to_owned()).or_insert_with(bytes).clone()
-    };
-    let mut meshes = Meshes::of_most(files.faces_allowed());
-    let mut faces = Faces::new(files.faces_allowed());
-    for (name, kinds) in wanted {
-        let path = files.path(name);
-        let bytes = bytes_of(files, &path, false).and_then(counted);
-        for wants_materials in kinds {
-            let parsed = bytes
-                .as_ref()
-                .map_err(|what| ObjError::new(what.clone(), &path, None))
-                .and_then(|bytes| parse(&path, bytes, wants_materials, faces, &mut library));
-            let mesh = parsed.inspect(|mesh| faces.left -= mesh.faces.len());
-            meshes.insert(name, wants_materials, mesh);
-        }
-    }
-    meshes
-}
-
-/// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it or below
-/// its folder.
+/// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it or
+/// below its folder.
 ///
 /// ```
 /// use qrt_scene::front::obj;
@@ -92,71 +41,31 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
 ///
 /// # Errors
 ///
-/// The first problem of the file: see [`ObjError`].
-pub fn load(path: &Path, wants_materials: bool) -> Result<ObjMesh, ObjError> {
+/// The first problem of the file: see [`FileError`].
+pub fn load(path: &Path, wants_materials: bool) -> Result<FileMesh, FileError> {
     let files = Files::of_folder(path.parent().unwrap_or(Path::new("")));
     let bytes = files.read_named(path, MAX_BYTES);
     let bytes: Rc<[u8]> = bytes
-        .map_err(|why| ObjError::new(unread(files, path, false, why), path, None))?
+        .map_err(|why| FileError::new(unread(files, path, false, why), path, FilePlace::Whole))?
         .into();
     let mut library = |path: &Path| bytes_of(files, path, true);
     parse(
         path,
         &bytes,
         wants_materials,
-        Faces::new(MOST_FACES),
+        Faces::default(),
         &mut library,
     )
 }
 
-/// The maximum number of triangles of a scene's meshes, and the number that no mesh has taken yet.
-#[derive(Clone, Copy, Debug)]
-struct Faces {
-    most: usize,
-    left: usize,
-}
-
-impl Faces {
-    fn new(most: usize) -> Self {
-        Self { most, left: most }
-    }
-}
-
-/// Reads a whole file.
-fn bytes_of(files: Files<'_>, path: &Path, is_library: bool) -> Result<Rc<[u8]>, MeshFile> {
-    let bytes = files.read(path, MAX_BYTES).map(Rc::from);
-    bytes.map_err(|why| unread(files, path, is_library, why))
-}
-
-fn unread(files: Files<'_>, path: &Path, is_library: bool, why: Unread) -> MeshFile {
-    let file = path.to_owned();
-    match why {
-        Unread::TooLarge => MeshFile::ManyBytes { most: MAX_BYTES },
-        Unread::Outside if files.are_of_crate() => MeshFile::OutsideCrate { file },
-        Unread::Outside => MeshFile::OutsideScene { file },
-        Unread::Irregular { .. } => MeshFile::Irregular { file, is_library },
-        Unread::Failed(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            MeshFile::Missing { file, is_library }
-        }
-        Unread::Failed(error) => MeshFile::Failed {
-            file,
-            is_library,
-            why: error.to_string(),
-        },
-    }
-}
-
-/// A function that reads the bytes of a material library.
-type Library<'a> = &'a mut dyn FnMut(&Path) -> Result<Rc<[u8]>, MeshFile>;
-
 /// Reads a mesh as [`load`] does, from its bytes.
-fn parse(
+pub(super) fn parse(
     path: &Path,
     bytes: &[u8],
     wants_materials: bool,
     faces: Faces,
     library: Library<'_>,
-) -> Result<ObjMesh, ObjError> {
+) -> Result<FileMesh, FileError> {
     let text = text_of(path, bytes)?;
     let mut scanner = Scanner::new(path, &text, wants_materials, faces);
     let mut shape = BufReader::new(&mut scanner);
@@ -166,48 +75,56 @@ fn parse(
     let (models, _) = read.map_err(|error| {
         scanner.fault.take().unwrap_or_else(|| {
             let why = error.to_string();
-            ObjError::new(MeshFile::Refused { why }, path, None)
+            FileError::new(MeshFile::Refused { why }, path, FilePlace::Whole)
         })
     })?;
-    let mut files = vec![path.to_owned()];
-    let materials = Materials::read(path, &scanner.libraries, library, &mut files)?;
-    let uses = scanner.uses.iter().map(|(name, line)| {
-        let found = materials.find(name, scanner.libraries.is_empty());
-        found.map_err(|what| ObjError::new(what, path, *line))
-    });
-    let uses: Vec<usize> = uses.collect::<Result<_, _>>()?;
 
     // The scanner passes no groups on either, so there is one model.
     let mesh = models.into_iter().next().map(|model| model.mesh);
     let mesh = mesh.unwrap_or_default();
     let corner = |index: &u32| DVec3::from_slice(&mesh.positions[3 * *index as usize..]);
     let mut corners = mesh.indices.iter().map(corner);
-    let mut faces = Vec::with_capacity(scanner.triangles);
+    let mut collector = Collector::default();
     for (number, (line, use_before)) in scanner.faces.iter().enumerate() {
         // Without arities, every face is a triangle.
         let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);
         let face: Vec<DVec3> = corners.by_ref().take(arity).collect();
-        let triangles = polygon::triangles(&face);
-        let triangles = triangles.map_err(|what| ObjError::new(what, path, *line))?;
-        let material = use_before.map(|number| uses[number]);
-        faces.extend(
-            triangles
-                .into_iter()
-                .map(|vertices| ObjFace { vertices, material }),
-        );
+        let added = collector.add(&face, *use_before, number as u32);
+        added.map_err(|what| FileError::new(what, path, *line))?;
     }
-    Ok(ObjMesh {
+    let line = |number: u32| FilePlace::Line(scanner.faces[number as usize].0);
+    let (mut faces, mut notes) = collector.finish(path, line)?;
+    if let Some((keyword, line)) = scanner.shapeless {
+        notes.push(FileError::new(MeshFile::Shapeless { keyword }, path, line));
+    }
+
+    let mut files = vec![path.to_owned()];
+    let mut library = Materials::read(path, &scanner.libraries, library, &mut files);
+    let mut materials = Vec::<FileMaterial>::new();
+    let (mut by_name, mut by_use) = (HashMap::new(), vec![None; scanner.uses.len()]);
+    for number in faces.iter_mut().filter_map(|face| face.material.as_mut()) {
+        let (name, line) = &scanner.uses[*number];
+        *number = *by_use[*number].get_or_insert_with(|| {
+            *by_name.entry(name).or_insert_with(|| {
+                materials.push(library.material(name, path, *line));
+                materials.len() - 1
+            })
+        });
+    }
+    notes.extend(library.unneeded());
+    Ok(FileMesh {
         faces,
-        materials: materials.into_list(),
+        materials,
         files,
+        notes,
     })
 }
 
 /// Returns a file as text. Bytes that are not UTF-8 do no harm in a comment.
-fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, ObjError> {
+fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, FileError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let line = line_after(&bytes[..at]);
-        return Err(ObjError::new(MeshFile::NotText, path, line));
+        return Err(FileError::new(MeshFile::NotText, path, line));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     Ok(String::from_utf8_lossy(bytes))
@@ -271,6 +188,18 @@ fn split(statement: &str) -> Result<(&str, &str), MeshFile> {
     let parts = statement.split_once(char::is_whitespace);
     let (keyword, rest) = parts.unwrap_or((statement, ""));
     Ok((keyword, rest.trim_start()))
+}
+
+/// Returns a name without the comment after it and without quotes around it.
+fn bare(name: &str) -> &str {
+    let comment = name.match_indices('#').find(|(at, _)| {
+        let before = name[..*at].chars().next_back();
+        before.is_none_or(char::is_whitespace)
+    });
+    let name = comment.map_or(name, |(at, _)| &name[..at]).trim_end();
+    let quoted = |quote| name.strip_prefix(quote)?.strip_suffix(quote);
+    let inner = quoted('"').or_else(|| quoted('\''));
+    inner.filter(|inner| !inner.is_empty()).unwrap_or(name)
 }
 
 /// The words of a statement up to a comment.

@@ -20,13 +20,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Maximum number of values in a scene's text, before aliases are expanded.
-pub const MAX_VALUES: usize = 1 << 21;
+pub(crate) const MAX_VALUES: usize = 1 << 21;
 /// Maximum number of values that aliases may add to a scene.
-pub const ALIAS_BUDGET: usize = 1 << 18;
+pub(crate) const ALIAS_BUDGET: usize = 1 << 18;
 /// Maximum number of bytes of text that aliases may add to a scene.
-pub const ALIAS_BYTES: usize = 1 << 24;
+pub(crate) const ALIAS_BYTES: usize = 1 << 24;
 /// Maximum number of nested levels of lists and maps in a scene.
-pub const MAX_DEPTH: usize = 64;
+pub(crate) const MAX_DEPTH: usize = 64;
 
 /// Reads the tree of the bytes `range` of `source`, without its faulty entries. `None` if it is
 /// empty, cannot be read to its end, or has a merge key. Places have source number `number`. A

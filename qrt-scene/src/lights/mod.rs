@@ -10,8 +10,10 @@
 //!
 //! which [`strongest`] bounds over all points of a surface and a lamp.
 
+mod ball;
 mod bound;
 
+pub use ball::{LitFace, polygon_distance, strongest_of};
 pub use bound::{Reached, strongest, strongest_form};
 
 use glam::DVec3;

@@ -14,6 +14,7 @@ pub use plane::{Overlap, first_overlap};
 pub use solid::{Solid, solids};
 
 use glam::DVec3;
+use std::borrow::Borrow;
 
 /// Planes nearer than this to each other (in coefficients and offset) count as one.
 pub const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -21,7 +22,7 @@ pub const SAME_PLANE: f64 = 1.0 / (1_u64 << 42) as f64;
 /// Returns the centre of the box around `points`, and the power of two that scales the box's
 /// greatest half extent into `[1/2, 1)`. Returns the origin and 1 if all points coincide, or there
 /// are none.
-pub fn stage_units<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, f64) {
+pub fn stage_units(points: impl Iterator<Item = DVec3>) -> (DVec3, f64) {
     let (low, high) = bounds(points);
     let extent = (high * 0.5 - low * 0.5).max_element();
     // Without points the extent is negative infinity.
@@ -43,8 +44,8 @@ pub fn main_axis(normal: DVec3) -> usize {
 }
 
 /// The least and the greatest coordinates of `points`.
-pub(crate) fn bounds<'a>(points: impl Iterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+pub(crate) fn bounds<P: Borrow<DVec3>>(points: impl Iterator<Item = P>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-        (low.min(*p), high.max(*p))
+        (low.min(*p.borrow()), high.max(*p.borrow()))
     })
 }

@@ -58,7 +58,7 @@ pub fn projected_jacobian(map: &[Expr; 3]) -> Expr {
 /// The radius, whose derivative has a pole at the normal of most maps, is in none of the
 /// factors. So a bound can be proven even if the shape of the map depends on the azimuth, as for an
 /// anisotropic lobe.
-pub fn projected_jacobian_by_azimuth(map: &[Expr; 3]) -> Expr {
+pub(crate) fn projected_jacobian_by_azimuth(map: &[Expr; 3]) -> Expr {
     let [x, y, _] = map;
     let square = (&x.powi(2) + &y.powi(2)).simplify();
     let [sine, cosine] = (y / x).simplify().fraction();

@@ -3,7 +3,8 @@
 //!
 //! The integral over paths is the mean over `R = 2^path_bits` path indices. Ray `k` of path `id`
 //! takes its coordinates `(u, v)` from two dimensions of its own, after those of earlier rays.
-//! Points on lamps have the dimensions after all rays ([`Sampling::squares`]). Each coordinate is
+//! Points on lamps have the dimensions after all rays, and the point on the lens has the last two
+//! ([`Sampling::squares`]). Each coordinate is
 //! the index of one of `2^bits` cells and stands for its centre ([`cell_centre`]). Both sequences
 //! are linear over GF(2), up to the pixel's shift:
 //!
@@ -118,6 +119,16 @@ impl Coordinate {
         Self::light_u(depth).with_axis(Axis::V)
     }
 
+    /// The first coordinate of the point on the camera's lens.
+    pub const fn lens_u() -> Self {
+        Self::light_u(0)
+    }
+
+    /// The second coordinate of the point on the camera's lens.
+    pub const fn lens_v() -> Self {
+        Self::light_v(0)
+    }
+
     const fn with_axis(self, axis: Axis) -> Self {
         Self { axis, ..self }
     }
@@ -135,6 +146,7 @@ impl fmt::Display for Coordinate {
         let axis = ["u", "v"][self.axis as usize];
         let light = match self.square {
             Square::Ray => "",
+            Square::Light if self.depth == 0 => " of the point on the lens",
             Square::Light => " of the point on a lamp",
         };
         write!(f, "{axis}{light} of depth {}", self.depth)

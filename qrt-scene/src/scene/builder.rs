@@ -2,7 +2,8 @@
 
 use super::{
     Accuracy, Budget, Camera, Circuit, Comparator, Counting, DepthSampling, Film, Geometry, Map,
-    Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene, Triangle,
+    Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene, Sky, Sphere,
+    Triangle,
 };
 use glam::DVec3;
 
@@ -15,6 +16,7 @@ impl Default for Perspective {
             target: DVec3::ZERO,
             up: DVec3::Y,
             vfov: 45.0,
+            lens: None,
         }
     }
 }
@@ -56,11 +58,12 @@ impl Default for DepthSampling {
 }
 
 impl Default for Mesh {
-    /// Creates a mesh without a transform, with its own materials. Its file name is empty and must
-    /// be set.
+    /// Creates a mesh without a transform, with the materials of its file, which must be set.
     fn default() -> Self {
         Self {
-            obj: String::new(),
+            obj: None,
+            ply: None,
+            gltf: None,
             material: None,
             scale: 1.0,
             rotate: DVec3::ZERO,
@@ -76,6 +79,7 @@ impl Default for Scene {
             name: "scene".to_owned(),
             camera: Camera::default(),
             film: Film::default(),
+            sky: None,
             materials: Vec::new(),
             geometry: Vec::new(),
             sampling: Sampling::default(),
@@ -192,6 +196,21 @@ impl SceneBuilder {
             vertices: vertices.map(Into::into),
             material: material.to_owned(),
         })
+    }
+
+    /// Adds a sphere of a material.
+    pub fn sphere(self, material: &str, center: impl Into<DVec3>, radius: f64) -> Self {
+        self.geometry(Sphere {
+            center: center.into(),
+            radius,
+            material: material.to_owned(),
+        })
+    }
+
+    /// Sets the light of directions in which nothing stands.
+    pub fn sky(mut self, sky: Sky) -> Self {
+        self.0.sky = Some(sky);
+        self
     }
 
     /// Sets the paths of a pixel.

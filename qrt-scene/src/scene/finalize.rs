@@ -1,9 +1,9 @@
 //! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
 use super::shape::{Expression, Shape, is_auto};
-use super::{Data, Jacobian, Lights, Sampling, Scene, Sequence, Square};
-use crate::syntax::tree::Node;
-use crate::syntax::{Path, Place, Problem, Problems};
+use super::{Data, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square};
+use crate::syntax::tree::{Node, Value};
+use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
 
 /// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The
 /// sum is clamped to the range, so that too large a sum is reported for the bits, not for a key
@@ -22,10 +22,15 @@ pub(super) fn path_bits(
 
 impl Sampling {
     /// The sum of the bits of all coordinates: the path bits of the product lattice.
-    pub fn lattice_bits(&self) -> u32 {
+    pub(crate) fn lattice_bits(&self) -> u32 {
         let squares = self.squares();
         let bits = squares.flat_map(|(_, _, bits)| bits);
         bits.fold(0, u32::saturating_add)
+    }
+
+    /// The bits of the point on the camera's lens, if one is sampled.
+    pub fn lens(&self) -> Option<[u32; 2]> {
+        self.depths.first()?.lens
     }
 
     /// Returns the bits of the point on a lamp that is connected to the start of the ray of
@@ -36,20 +41,93 @@ impl Sampling {
     }
 
     /// Iterates over the squares that a path samples, each with its depth and bits, in the order of
-    /// a sequence's dimensions: all rays, and then the points on lamps. So rays have the same
-    /// dimensions with and without lamps, and light that only rays find is sampled no worse because
-    /// of lamps.
+    /// a sequence's dimensions: all rays, then the points on lamps, then the point on the lens. So
+    /// rays have the same dimensions with and without lamps and a lens, and light that only rays
+    /// find is sampled no worse because of lamps.
     pub fn squares(&self) -> impl Iterator<Item = (usize, Square, [u32; 2])> + '_ {
         let rays = self.depths.iter().enumerate();
         let rays = rays.map(|(depth, sampling)| (depth, Square::Ray, sampling.bits));
         let lights = (0..self.depths.len())
             .filter_map(|depth| Some((depth, Square::Light, self.light(depth)?)));
-        rays.chain(lights)
+        let lens = self.lens().map(|bits| (0, Square::Light, bits));
+        rays.chain(lights).chain(lens)
     }
 }
 
+/// Reports a mesh with no file or with several.
+pub(super) fn mesh(mesh: Mesh, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Mesh {
+    let names = MeshFormat::NAMES;
+    let written: Vec<&str> = names
+        .into_iter()
+        .filter(|key| node.entry(key).is_some())
+        .collect();
+    match written[..] {
+        [_] => {}
+        [first, second, ..] => {
+            let path = at.path();
+            problems.push(second_file(&path, first, second));
+            problems.mark(path);
+        }
+        [] => {
+            // A misspelt key is reported as such.
+            let keys = ["material", "scale", "rotate", "translate"];
+            let all = names.into_iter().chain(keys);
+            let is_meant =
+                |key: &str| nearest(key, all.clone()).is_some_and(|near| names.contains(&near));
+            let entries = match &node.value {
+                Value::Map(entries) => &entries[..],
+                _ => &[],
+            };
+            if !entries.iter().any(|entry| is_meant(&entry.key)) {
+                problems.add(at.name(), Structure::NoFile);
+            }
+            problems.mark(at.path());
+        }
+    }
+    mesh
+}
+
+/// Reports a sky with both one radiance and a gradient, or with a part of a gradient.
+pub(super) fn sky(sky: Sky, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Sky {
+    let [radiance, horizon, zenith] =
+        ["radiance", "horizon", "zenith"].map(|key| node.entry(key).is_some());
+    if let Some(problem) = sky_fault(&at.path(), [radiance, horizon, zenith]) {
+        problems.push(problem);
+        problems.mark(at.path());
+    }
+    sky
+}
+
+/// Returns the problem of a sky with these keys: `radiance`, `horizon`, `zenith`.
+pub(crate) fn sky_fault(path: &Path, written: [bool; 3]) -> Option<Problem> {
+    let missing = |key: &'static str| Some(Problem::new(path.clone(), Light::NoEnd { key }));
+    match written {
+        [true, false, false] | [false, true, true] => None,
+        [true, horizon, _] => {
+            let key = if horizon { "horizon" } else { "zenith" };
+            let problem = Problem::new(path.name(key), Light::TwoSkies { key });
+            Some(problem.also(path.name("radiance")))
+        }
+        [false, true, false] => missing("zenith"),
+        [false, false, true] => missing("horizon"),
+        [false, false, false] => Some(Problem::new(path.clone(), Light::NoSky)),
+    }
+}
+
+/// Returns the problem of the files `first` and `second` of the mesh at `path`.
+pub(crate) fn second_file(path: &Path, first: &'static str, second: &'static str) -> Problem {
+    let problem = Problem::new(path.name(second), Structure::SecondFile { first, second });
+    problem.also(path.name(first))
+}
+
 /// Reports parameters that are written beside `accuracy`, which replaces them.
-pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Scene {
+pub(super) fn scene(
+    mut scene: Scene,
+    node: &Node,
+    at: &Place<'_>,
+    problems: &mut Problems,
+) -> Scene {
+    sample_lens(&mut scene);
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
             if node.entry(key).is_some() {
@@ -62,6 +140,22 @@ pub(super) fn scene(scene: Scene, node: &Node, at: &Place<'_>, problems: &mut Pr
         }
     }
     scene
+}
+
+/// Gives the point on a lens the bits of the primary ray, if it has none.
+pub(crate) fn sample_lens(scene: &mut Scene) {
+    let has_lens = scene.lens().is_some();
+    let sampling = &mut scene.sampling;
+    let bits = sampling.lattice_bits();
+    if let Some(primary) = sampling.depths.first_mut()
+        && has_lens
+        && primary.lens.is_none()
+    {
+        primary.lens = Some(primary.bits);
+        if sampling.sequence == Sequence::ProductLattice && sampling.path_bits == bits {
+            sampling.path_bits = sampling.lattice_bits();
+        }
+    }
 }
 
 /// Returns the problem of `key`, in the record at `path`, beside `accuracy`.

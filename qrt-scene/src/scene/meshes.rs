@@ -1,10 +1,10 @@
 //! The contents of a scene's mesh files, as plain data. The front end reads them
-//! ([`crate::front::obj`]); [`crate::valid::validate`] checks them along with the scene.
+//! ([`crate::front::meshes`]); [`crate::valid::validate`] checks them along with the scene.
 
-use super::{Mesh, Rgb};
+use super::{Material, Mesh, MeshFormat};
 use crate::syntax::{MeshFile, What};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// file share its mesh, and so do clones of this value.
 #[derive(Clone, Debug)]
 pub struct Meshes {
-    read: BTreeMap<Key, Result<Arc<ObjMesh>, ObjError>>,
+    read: BTreeMap<Key, Result<Arc<FileMesh>, FileError>>,
     most_faces: usize,
 }
 
@@ -21,8 +21,8 @@ pub struct Meshes {
 /// fewer.
 pub const MOST_FACES: usize = 1 << 22;
 
-/// A file name as the scene writes it, and true if the file's own materials are read.
-type Key = (String, bool);
+/// A file's format, its name as the scene writes it, and true if its own materials are read.
+type Key = (MeshFormat, String, bool);
 
 impl Default for Meshes {
     fn default() -> Self {
@@ -32,7 +32,7 @@ impl Default for Meshes {
 
 impl Meshes {
     /// Creates an empty set of meshes, for a scene of at most `most_faces` faces.
-    pub fn of_most(most_faces: usize) -> Self {
+    pub(crate) fn of_most(most_faces: usize) -> Self {
         let read = BTreeMap::new();
         Self { read, most_faces }
     }
@@ -46,92 +46,146 @@ impl Meshes {
     ///
     /// # Errors
     /// The error of its file, or [`MeshFile::NotRead`] if the file was not read.
-    pub fn get(&self, mesh: &Mesh) -> Result<&ObjMesh, ObjError> {
-        let key = (mesh.obj.clone(), mesh.material.is_none());
-        let Some(read) = self.read.get(&key) else {
-            let name = mesh.obj.clone();
-            return Err(ObjError::new(MeshFile::NotRead { name }, "".as_ref(), None));
+    pub fn get(&self, mesh: &Mesh) -> Result<&FileMesh, FileError> {
+        let not_read = |name: &str| {
+            let name = name.to_owned();
+            FileError::new(MeshFile::NotRead { name }, "".as_ref(), FilePlace::Whole)
         };
-        read.as_deref().map_err(ObjError::clone)
+        let (format, name) = mesh.file().ok_or_else(|| not_read(""))?;
+        let key = (format, name.to_owned(), mesh.material.is_none());
+        let read = self.read.get(&key).ok_or_else(|| not_read(name))?;
+        read.as_deref().map_err(FileError::clone)
     }
 
-    /// Adds the result of reading the file that a scene names `obj`, with its own materials or
+    /// Adds the result of reading the file that a scene calls `name`, with its own materials or
     /// without.
-    pub fn insert(&mut self, obj: &str, own_materials: bool, read: Result<ObjMesh, ObjError>) {
-        let key = (obj.to_owned(), own_materials);
+    pub fn insert(
+        &mut self,
+        format: MeshFormat,
+        name: &str,
+        own_materials: bool,
+        read: Result<FileMesh, FileError>,
+    ) {
+        let key = (format, name.to_owned(), own_materials);
         self.read.insert(key, read.map(Arc::new));
     }
 }
 
 /// A mesh as it is in its file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ObjMesh {
-    /// Triangles in the order of the file; a polygon becomes several.
-    pub faces: Vec<ObjFace>,
-    /// The materials of all its libraries; empty if they were not wanted.
-    pub materials: Vec<ObjMaterial>,
-    /// The files that were read: the OBJ file itself, then its libraries.
+pub struct FileMesh {
+    /// Triangles in the order of the file, each with an area and none of them twice; a polygon
+    /// becomes several.
+    pub faces: Vec<FileFace>,
+    /// The materials of the faces; empty if they were not wanted.
+    pub materials: Vec<FileMaterial>,
+    /// The files that were read: the mesh file itself, then the files that it names.
     pub files: Vec<PathBuf>,
+    /// Warnings about parts of the files that the mesh leaves out.
+    pub notes: Vec<FileError>,
 }
 
 /// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObjFace {
+pub struct FileFace {
     /// Its corners, in the file's units.
     pub vertices: [DVec3; 3],
-    /// The triangle's material, as an index into [`ObjMesh::materials`]; `None` if materials were
+    /// The triangle's material, as an index into [`FileMesh::materials`]; `None` if materials were
     /// not wanted.
     pub material: Option<usize>,
 }
 
-/// A material of an MTL file.
+/// A material of a mesh file that faces are made of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ObjMaterial {
-    /// `FILE.mtl:NAME`.
+pub struct FileMaterial {
+    /// The material's name in its file. A material of the scene with this name replaces it.
     pub name: String,
-    /// `Ke`, or black.
-    pub radiance: Rgb,
-    /// `Kd`, or black.
-    pub albedo: Rgb,
-}
-
-/// An error of a mesh file; codes are `QRT0319` to `QRT0344`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjError {
-    /// The problem.
-    pub what: MeshFile,
-    /// The file: the OBJ itself or one of its libraries.
+    /// `FILE.mtl:NAME`.
+    pub label: String,
+    /// The material, or the error of its definition, which does not matter if the scene replaces
+    /// it.
+    pub material: Result<Material, FileError>,
+    /// Keywords of its definition that have no counterpart.
+    pub left_out: BTreeSet<String>,
+    /// The file that defines it.
     pub file: PathBuf,
-    /// The line of the file, counted from 1; `None` if the error concerns no single line.
-    pub line: Option<usize>,
+    /// The place of the definition.
+    pub place: FilePlace,
 }
 
-impl ObjError {
-    /// Creates an error in `file`, at `line` if it concerns one.
-    pub(crate) fn new(what: MeshFile, file: &Path, line: impl Into<Option<usize>>) -> Self {
-        let (file, line) = (file.to_owned(), line.into());
-        Self { what, file, line }
+/// An error of a mesh file, or a warning; codes are `QRT0319` to `QRT0352`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileError {
+    /// The problem.
+    pub what: Box<MeshFile>,
+    /// The file: the mesh file itself or one that it names.
+    pub file: PathBuf,
+    /// The place in the file.
+    pub place: FilePlace,
+}
+
+/// A place in a mesh file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FilePlace {
+    /// No single place.
+    Whole,
+    /// A line, counted from 1.
+    Line(usize),
+    /// An element of a binary file.
+    Element {
+        /// The kind of element: `vertex`.
+        kind: Box<str>,
+        /// Its number, counted from 0.
+        number: usize,
+        /// The place in the file, in bytes from its start.
+        byte: usize,
+    },
+    /// A part of a JSON text, such as `meshes[0].primitives[1]`.
+    Part(String),
+}
+
+impl From<usize> for FilePlace {
+    fn from(line: usize) -> Self {
+        Self::Line(line)
+    }
+}
+
+impl fmt::Display for FilePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => Ok(()),
+            Self::Line(line) => write!(f, ":{line}"),
+            Self::Element { kind, number, byte } => write!(f, ": {kind} {number}, byte {byte}"),
+            Self::Part(part) => write!(f, ": {part}"),
+        }
+    }
+}
+
+impl FileError {
+    /// Creates an error in `file`, at `place`.
+    pub(crate) fn new(what: MeshFile, file: &Path, place: impl Into<FilePlace>) -> Self {
+        let (what, file, place) = (Box::new(what), file.to_owned(), place.into());
+        Self { what, file, place }
     }
 
     /// Converts the error to a problem of the scene that names the file.
     pub(crate) fn problem(self) -> What {
-        let place = self.line.map_or_else(String::new, |line| {
-            format!("{}:{line}", self.file.display())
-        });
-        let what = Box::new(self.what.into());
+        let place = match self.place {
+            FilePlace::Whole => String::new(),
+            place => format!("{}{place}", self.file.display()),
+        };
+        let what = Box::new((*self.what).into());
         What::OfFile { what, place }
     }
 }
 
-impl fmt::Display for ObjError {
+impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        let words = self.what.description();
-        write!(f, ": {} ({})", words.message, words.code)
+        let Self { what, file, place } = self;
+        let words = what.description();
+        let file = file.display();
+        write!(f, "{file}{place}: {} ({})", words.message, words.code)
     }
 }
 
-impl std::error::Error for ObjError {}
+impl std::error::Error for FileError {}

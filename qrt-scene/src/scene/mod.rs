@@ -25,13 +25,13 @@ use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
 use shape::{
-    Array, AutoOr, Channels, Expression, LARGEST, List, Maybe, Named, Number, Part, Text, number,
-    part, point, whole, word,
+    Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Part, Text,
+    number, part, point, whole, word,
 };
 use std::sync::Arc;
 use text::{Data, Fingerprint};
 use uncompute::UncomputeShape;
-pub use uncompute::{Again, PARTS};
+pub use uncompute::{Recomputed, UNCOMPUTE_PARTS};
 pub use uncompute::{Uncompute, UncomputedParts};
 
 /// Maximum number of bits of a path index. Path counts up to `2^52` and their sums stay exact in
@@ -41,10 +41,10 @@ pub const MAX_PATH_BITS: u32 = 52;
 /// Linear RGB.
 pub type Rgb = [f64; 3];
 
-const REFLECTANCE: Array<Number, 3> =
-    Array(number(0.0, 1.0).or(|value, range| Datum::NotAlbedo { value, range }));
-const RADIANCE: Array<Number, 3> =
-    Array(number(0.0, LARGEST).or(|value, range| Datum::NotRadiance { value, range }));
+const REFLECTANCE: Colour =
+    Colour(number(0.0, 1.0).or(|value, range| Datum::NotAlbedo { value, range }));
+const RADIANCE: Colour =
+    Colour(number(0.0, LARGEST).or(|value, range| Datum::NotRadiance { value, range }));
 const LENGTH: Number = number(0.0, LARGEST).above();
 
 record! {
@@ -57,6 +57,8 @@ record! {
     pub camera: Camera = part::<Camera>();
     /// The size of the picture.
     pub film: Film = part::<Film>();
+    /// The light of directions in which nothing stands; black if it is left out.
+    pub sky: Option<Sky> = Maybe(part::<Sky>()), or None;
     /// The materials, by names of your own: what surfaces do to light.
     pub materials: Vec<(String, Material)> = Named(part::<Material>());
     /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
@@ -101,6 +103,18 @@ record! {
     pub up: DVec3 = point(), or DVec3::Y;
     /// The vertical field of view in degrees.
     pub vfov: f64 = number(0.0, 180.0).above().below();
+    /// A thin lens in place of the pinhole; default none.
+    pub lens: Option<Lens> = Maybe(part::<Lens>()), or None;
+}
+
+record! {
+    /// A thin lens: points at the distance `focus` are sharp.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Lens = "a lens";
+    /// The diameter of the lens, in scene units.
+    pub aperture: f64 = LENGTH;
+    /// The distance of the sharp plane from the eye, along the view, in scene units.
+    pub focus: f64 = LENGTH;
 }
 
 record! {
@@ -125,6 +139,38 @@ record! {
     pub width: u32 = whole::<u32>(1, 65_536);
     /// Pixels from top to bottom.
     pub height: u32 = whole::<u32>(1, 65_536);
+}
+
+record! {
+    /// The light of directions in which nothing stands: either `radiance`, or both `horizon` and
+    /// `zenith`.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Sky = "the sky", finalize = finalize::sky;
+    /// The radiance of all directions, in linear RGB.
+    pub radiance: Option<Rgb> = Maybe(RADIANCE), or None;
+    /// The radiance of directions across `up` and below, in linear RGB.
+    pub horizon: Option<Rgb> = Maybe(RADIANCE), or None;
+    /// The radiance of the direction `up`, in linear RGB. Between, radiance is linear in the sine of
+    /// the height above the horizon.
+    pub zenith: Option<Rgb> = Maybe(RADIANCE), or None;
+    /// The direction of the zenith, of any length; default [0, 1, 0].
+    pub up: DVec3 = point(), or DVec3::Y;
+}
+
+impl Sky {
+    /// The radiance at the horizon and below, and at the zenith.
+    pub fn gradient(&self) -> [Rgb; 2] {
+        let of = |end: Option<Rgb>| self.radiance.or(end).unwrap_or([0.0; 3]);
+        [of(self.horizon), of(self.zenith)]
+    }
+
+    /// True if the sky gives light in any direction and channel.
+    pub fn shines(&self) -> bool {
+        self.gradient()
+            .as_flattened()
+            .iter()
+            .any(|&channel| channel > 0.0)
+    }
 }
 
 variant! {
@@ -239,7 +285,10 @@ variant! {
     Quad(Quad) = "quad";
     /// A triangle.
     Triangle(Triangle) = "triangle";
-    /// Triangles and polygons from a Wavefront OBJ file.
+    /// A sphere.
+    Sphere(Sphere) = "sphere";
+    /// Triangles and polygons from a file, which exactly one of the keys `obj`, `ply` and `gltf`
+    /// names.
     Mesh(Mesh) = "mesh";
 }
 
@@ -264,12 +313,30 @@ record! {
 }
 
 record! {
-    /// A Wavefront OBJ file, scaled, then rotated, then translated.
+    /// A sphere, whose front is outside.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Mesh = "a mesh";
-    /// The file, relative to the scene's folder.
-    pub obj: String = Text;
-    /// The name of a material for all of it; without one, the MTL file's materials.
+    pub struct Sphere = "a sphere";
+    /// The centre, in scene units.
+    pub center: DVec3 = point();
+    /// The radius, in scene units.
+    pub radius: f64 = LENGTH;
+    /// The name of a material.
+    pub material: String = Text;
+}
+
+record! {
+    /// A mesh from a file, scaled, then rotated, then translated. It has exactly one of the keys
+    /// `obj`, `ply` and `gltf`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Mesh = "a mesh", finalize = finalize::mesh, one_of = &MeshFormat::NAMES;
+    /// A Wavefront OBJ file, relative to the scene's folder.
+    pub obj: Option<String> = Maybe(Text), or None;
+    /// A PLY file, ASCII or binary, relative to the scene's folder.
+    pub ply: Option<String> = Maybe(Text), or None;
+    /// A glTF 2 file, `.gltf` or `.glb`, relative to the scene's folder.
+    pub gltf: Option<String> = Maybe(Text), or None;
+    /// The name of a material for all of it; without one, the file's materials. A PLY file has
+    /// none.
     pub material: Option<String> = Maybe(Text), or None;
     /// The factor of its size; default 1.
     pub scale: f64 = LENGTH, or 1.0;
@@ -277,6 +344,45 @@ record! {
     pub rotate: DVec3 = point(), or DVec3::ZERO;
     /// Added to every point, in scene units; default none.
     pub translate: DVec3 = point(), or DVec3::ZERO;
+}
+
+/// The format of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum MeshFormat {
+    /// Wavefront OBJ, with MTL libraries.
+    Obj,
+    /// The Stanford PLY format, ASCII or binary.
+    Ply,
+    /// glTF 2, as text or as one binary file.
+    Gltf,
+}
+
+impl MeshFormat {
+    /// All formats.
+    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Gltf];
+    /// Their keys in a mesh, in the order of [`Self::ALL`].
+    pub const NAMES: [&'static str; 3] = ["obj", "ply", "gltf"];
+
+    /// The format's key in a mesh.
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+impl Mesh {
+    /// Returns the format and the name of the mesh's file; `None` if the mesh has no file or
+    /// several.
+    pub fn file(&self) -> Option<(MeshFormat, &str)> {
+        let mut files = self.files();
+        files.next().filter(|_| files.next().is_none())
+    }
+
+    /// Iterates over the formats and names of the mesh's files, of which a valid mesh has one.
+    pub(crate) fn files(&self) -> impl Iterator<Item = (MeshFormat, &str)> {
+        let names = [&self.obj, &self.ply, &self.gltf].map(Option::as_deref);
+        let files = MeshFormat::ALL.into_iter().zip(names);
+        files.filter_map(|(format, name)| Some((format, name?)))
+    }
 }
 
 record! {
@@ -333,13 +439,30 @@ record! {
     /// Resolution, in bits, of the point on a lamp that is connected to the surface which this ray
     /// leaves; not for the primary ray. Without it no lamp is sampled there.
     pub light: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 16))), or None;
+    /// Resolution, in bits, of the point on the camera's lens; for the primary ray alone. Default the
+    /// primary ray's `bits`, if the camera has a lens.
+    pub lens: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 24))), or None;
+}
+
+impl Scene {
+    /// The lens of the camera, if it has one.
+    pub fn lens(&self) -> Option<Lens> {
+        match &self.camera {
+            Camera::Perspective(camera) => camera.lens,
+            Camera::Orthographic(_) => None,
+        }
+    }
 }
 
 impl DepthSampling {
     /// Creates the sampling of a ray with `bits` per coordinate and each material's own map.
     pub const fn of_bits(bits: [u32; 2]) -> Self {
-        let (map, light) = (Map::Auto, None);
-        Self { bits, map, light }
+        Self {
+            bits,
+            map: Map::Auto,
+            light: None,
+            lens: None,
+        }
     }
 }
 
@@ -348,7 +471,7 @@ impl DepthSampling {
 pub enum Square {
     /// A ray's direction, or the primary ray's place on the pixel.
     Ray,
-    /// The point on a lamp.
+    /// The point on a lamp; of the primary ray, on the camera's lens.
     Light,
 }
 
@@ -416,6 +539,11 @@ record! {
 }
 
 impl Counting {
+    /// The window in which the phase register is prepared: the estimator's own, or else `window`.
+    pub fn register_window(&self) -> Window {
+        self.estimator.register_window(self.window)
+    }
+
     /// True if strata of the comparator may be counted one by one.
     pub fn may_count_strata(&self) -> bool {
         self.estimator.counts_strata() && self.strata != Some(1)

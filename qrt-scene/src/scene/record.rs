@@ -3,12 +3,14 @@
 
 /// Defines a record: a map of known keys. A key `field: Type = shape;` is required; a key
 /// `field: Type = shape, or default;` is optional. `finalize = f` names a function that is called
-/// after reading, with the value and its node.
+/// after reading, with the value and its node. `one_of = NAMES` makes the schema require exactly one
+/// of these keys; `finalize` has to check the same.
 macro_rules! record {
     (
         $(#[doc = $doc:literal])*
         #[derive($($derive:ident),*)]
-        pub struct $name:ident = $noun:literal $(, finalize = $finalize:path)? ;
+        pub struct $name:ident = $noun:literal
+            $(, finalize = $finalize:path)? $(, one_of = $one_of:expr)? ;
         $(
             $(#[doc = $field_doc:literal])*
             pub $field:ident : $type:ty = $shape:expr $(, or $default:expr)? ;
@@ -72,13 +74,17 @@ macro_rules! record {
 
             fn schema() -> $crate::scene::text::Data {
                 use $crate::scene::shape::Shape as _;
-                $crate::scene::shape::record_schema(concat!($($doc),*), vec![$((
-                    stringify!($field),
-                    concat!($($field_doc),*),
-                    record!(@required $($default)?),
-                    $shape.schema(),
-                    record!(@default $type, $shape $(, $default)?),
-                )),*])
+                let schema = $crate::scene::shape::record_schema(concat!($($doc),*), vec![$(
+                    $crate::scene::shape::FieldSchema {
+                        name: stringify!($field),
+                        doc: concat!($($field_doc),*),
+                        is_required: record!(@required $($default)?),
+                        shape: $shape.schema(),
+                        default: record!(@default $type, $shape $(, $default)?),
+                    }
+                ),*]);
+                $( let schema = $crate::scene::shape::one_of(schema, $one_of); )?
+                schema
             }
         }
 

@@ -4,8 +4,8 @@
 mod collections;
 mod described;
 
-pub(crate) use collections::{Array, AutoOr, Channels, List, Maybe, Named, is_auto, point};
-pub(crate) use described::{record_schema, variant_schema};
+pub(crate) use collections::{Array, AutoOr, Channels, Colour, List, Maybe, Named, is_auto, point};
+pub(crate) use described::{FieldSchema, one_of, record_schema, variant_schema};
 
 use crate::scene::text::Data;
 use crate::syntax::tree::{Kind, Node, Value};

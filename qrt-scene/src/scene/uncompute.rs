@@ -27,14 +27,14 @@ pub enum Uncompute {
 /// `scoped`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UncomputedParts {
-    /// A bit for each of [`PARTS`].
+    /// A bit for each of [`UNCOMPUTE_PARTS`].
     parts: u16,
-    again: Again,
+    again: Recomputed,
 }
 
 /// Values that are recomputed rather than kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Again {
+pub enum Recomputed {
     /// Nothing.
     Nothing,
     /// Cheap values.
@@ -63,7 +63,7 @@ const WORDS: [(Uncompute, &str, &str); 3] = [
 ];
 
 /// Names of the parts that may be uncomputed early, by bit.
-pub const PARTS: [&str; 9] = [
+pub const UNCOMPUTE_PARTS: [&str; 9] = [
     "plane",
     "products",
     "ray",
@@ -74,7 +74,7 @@ pub const PARTS: [&str; 9] = [
     "shading",
     "component",
 ];
-const ALL_PARTS: u16 = (1 << PARTS.len()) - 1;
+const ALL_PARTS: u16 = (1 << UNCOMPUTE_PARTS.len()) - 1;
 /// The parts that leave garbage. Strategies that recompute values always include them.
 const GARBAGE: u16 = 1 << 1 | 1 << 4 | 1 << 5;
 /// The parts of `scoped`: all but convex bodies.
@@ -85,15 +85,15 @@ const RERUN: &str = "rerun";
 /// All words of names: those of [`WORDS`], which stand alone, the parts, and the two for
 /// recomputation.
 const NAMES: &[&str] = &{
-    let mut names = [RERUN; WORDS.len() + PARTS.len() + 2];
+    let mut names = [RERUN; WORDS.len() + UNCOMPUTE_PARTS.len() + 2];
     let (alone, rest) = names.split_at_mut(WORDS.len());
-    let (parts, again) = rest.split_at_mut(PARTS.len());
+    let (parts, again) = rest.split_at_mut(UNCOMPUTE_PARTS.len());
     let mut word = 0;
     while word < WORDS.len() {
         alone[word] = WORDS[word].1;
         word += 1;
     }
-    parts.copy_from_slice(&PARTS);
+    parts.copy_from_slice(&UNCOMPUTE_PARTS);
     again[0] = RECOMPUTE;
     names
 };
@@ -101,11 +101,11 @@ const NOUN: &str = "a strategy";
 
 impl Uncompute {
     /// Returns the strategy that uncomputes `parts`, by bit, and recomputes `again`.
-    pub fn of_parts(parts: u16, again: Again) -> Self {
+    pub fn of_parts(parts: u16, again: Recomputed) -> Self {
         match (parts, again) {
-            (0, Again::Nothing) => Self::Keep,
-            (SCOPED, Again::Nothing) => Self::Scoped,
-            (parts, Again::Nothing) => Self::Parts(UncomputedParts { parts, again }),
+            (0, Recomputed::Nothing) => Self::Keep,
+            (SCOPED, Recomputed::Nothing) => Self::Scoped,
+            (parts, Recomputed::Nothing) => Self::Parts(UncomputedParts { parts, again }),
             (parts, again) => Self::Parts(UncomputedParts {
                 parts: parts | GARBAGE,
                 again,
@@ -114,10 +114,10 @@ impl Uncompute {
     }
 
     /// Returns the parts, by bit, and the values to recompute; `None` for `auto`.
-    pub fn parts(self) -> Option<(u16, Again)> {
+    pub fn parts(self) -> Option<(u16, Recomputed)> {
         match self {
-            Self::Keep => Some((0, Again::Nothing)),
-            Self::Scoped => Some((SCOPED, Again::Nothing)),
+            Self::Keep => Some((0, Recomputed::Nothing)),
+            Self::Scoped => Some((SCOPED, Recomputed::Nothing)),
             Self::Auto => None,
             Self::Parts(UncomputedParts { parts, again }) => Some((parts, again)),
         }
@@ -128,7 +128,7 @@ impl Uncompute {
     pub fn name(self) -> &'static str {
         static LISTED: LazyLock<Vec<String>> = LazyLock::new(|| {
             let parts = 0..=ALL_PARTS;
-            let again = [Again::Nothing, Again::Cheap, Again::Sources];
+            let again = [Recomputed::Nothing, Recomputed::Cheap, Recomputed::Sources];
             parts
                 .flat_map(|parts| again.map(|again| listed(parts, again)))
                 .collect()
@@ -155,12 +155,12 @@ impl Uncompute {
         if let Some((value, ..)) = WORDS.iter().find(|(_, word, _)| *word == name) {
             return Some(*value);
         }
-        let (mut parts, mut again) = (0, Again::Nothing);
+        let (mut parts, mut again) = (0, Recomputed::Nothing);
         for word in name.split('-') {
-            match PARTS.iter().position(|part| *part == word) {
+            match UNCOMPUTE_PARTS.iter().position(|part| *part == word) {
                 Some(bit) => parts |= 1 << bit,
-                None if word == RECOMPUTE => again = again.max(Again::Cheap),
-                None if word == RERUN => again = Again::Sources,
+                None if word == RECOMPUTE => again = again.max(Recomputed::Cheap),
+                None if word == RERUN => again = Recomputed::Sources,
                 None => return None,
             }
         }
@@ -170,13 +170,13 @@ impl Uncompute {
 
 /// Returns the name of `parts` and `again`. Recomputation implies the parts of [`GARBAGE`], so the
 /// name omits them.
-fn listed(parts: u16, again: Again) -> String {
+fn listed(parts: u16, again: Recomputed) -> String {
     let (shown, last) = match again {
-        Again::Nothing => (parts, None),
-        Again::Cheap => (parts & !GARBAGE, Some(RECOMPUTE)),
-        Again::Sources => (parts & !GARBAGE, Some(RERUN)),
+        Recomputed::Nothing => (parts, None),
+        Recomputed::Cheap => (parts & !GARBAGE, Some(RECOMPUTE)),
+        Recomputed::Sources => (parts & !GARBAGE, Some(RERUN)),
     };
-    let names = PARTS.iter().enumerate();
+    let names = UNCOMPUTE_PARTS.iter().enumerate();
     let names = names.filter(|(bit, _)| shown >> bit & 1 == 1);
     let names: Vec<&str> = names.map(|(_, name)| *name).chain(last).collect();
     names.join("-")
@@ -259,7 +259,7 @@ mod tests {
     fn every_strategy_has_a_name_of_its_own_that_names_it() {
         let mut names = BTreeSet::new();
         for parts in 0..=ALL_PARTS {
-            for again in [Again::Nothing, Again::Cheap, Again::Sources] {
+            for again in [Recomputed::Nothing, Recomputed::Cheap, Recomputed::Sources] {
                 let strategy = Uncompute::of_parts(parts, again);
                 assert_eq!(Uncompute::from_name(strategy.name()), Some(strategy));
                 names.insert(strategy.name());

@@ -53,7 +53,7 @@ codes! {
     TOO_DEEP = "QRT0112", "the text nests too deeply",
         "A scene needs fewer than ten levels";
     TOO_LARGE = "QRT0113", "the scene is too large",
-        "Put large geometry into OBJ meshes";
+        "Put large geometry into mesh files (OBJ, PLY, glTF)";
     UNKNOWN_KEY = "QRT0120", "an unknown key",
         "Compare with the nearest name, or remove the key";
     MISSING_KEY = "QRT0121", "a required key is missing",
@@ -90,6 +90,8 @@ codes! {
         "Move `eye` or `target`";
     CAMERA_UP = "QRT0210", "a camera whose `up` does not say which way is up",
         "Choose an `up` that is neither zero nor along the view";
+    SKY = "QRT0211", "a sky without a radiance, with a part of a gradient, or without a zenith",
+        "Write one `radiance`, or both `horizon` and `zenith`";
     UNUSED_MATERIAL = "QRT0220", "a material that nothing is made of",
         "Remove it, or give it to a primitive; it is only a warning";
     BLACK = "QRT0221", "a scene whose pictures are black",
@@ -123,7 +125,7 @@ codes! {
     OBJ_STATEMENT = "QRT0323", "an unknown statement in a mesh file",
         "Correct or remove it";
     OBJ_NO_POLYGON = "QRT0324", "points, lines or free-form shapes in a mesh file",
-        "Export the mesh as polygons";
+        "Export the mesh as polygons; it is only a warning, what has faces is read";
     OBJ_NUMBER = "QRT0325", "too few, too many or no numbers in a mesh file",
         "Write as many numbers as the statement takes";
     OBJ_NOT_FINITE = "QRT0326", "NaN, infinity or an overlarge number in a mesh file",
@@ -142,28 +144,44 @@ codes! {
         "Check that the file is whole";
     OBJ_NO_LIBRARY = "QRT0333", "a mesh that names no material library",
         "Give the mesh a `material` in the scene, or the file a `mtllib` statement";
-    MTL_UNREADABLE = "QRT0334", "a material library that cannot be read",
-        "Check the name after `mtllib`, which is relative to the OBJ file's folder";
+    MTL_UNREADABLE = "QRT0334", "a file that a mesh file names and that cannot be read",
+        "Check its name, which is relative to the folder of the mesh file";
     OBJ_MATERIAL = "QRT0335", "a material that no library has",
         "Correct the name after `usemtl`, or add the material to the MTL file";
     OBJ_NO_MATERIAL = "QRT0336", "a face without a material",
         "Give the mesh a `material` in the scene, or the face one in the file";
     MTL_STATEMENT = "QRT0337", "a statement of a material library that cannot be read",
-        "Write `newmtl NAME`, `Kd r g b` and `Ke r g b`";
-    MTL_ALBEDO = "QRT0338", "a `Kd` outside [0, 1]",
+        "Write it as the page on meshes shows";
+    MTL_ALBEDO = "QRT0338", "a reflectance outside [0, 1] in a mesh file",
         "A surface cannot reflect less than nothing or more than it receives";
-    MTL_RADIANCE = "QRT0339", "a negative `Ke`",
+    MTL_RADIANCE = "QRT0339", "a negative radiance in a mesh file",
         "Write 0 or more";
     MTL_DUPLICATE = "QRT0340", "two materials of one name in the libraries of a mesh",
         "Rename one of them";
     MTL_EMPTY = "QRT0341", "a material without `Kd` and `Ke`",
         "Give it an albedo, a radiance or both";
-    MTL_TEXTURE = "QRT0342", "a texture in a material library",
-        "Give the mesh a `material` in the scene, or the material a plain colour";
+    MTL_TEXTURE = "QRT0342", "a texture in a mesh file",
+        "Name a material of the scene like that of the file, or write a plain colour";
     OBJ_ZERO_AREA = "QRT0343", "a face without area",
-        "Remove it with the tool that made the mesh";
+        "Remove it with the tool that made the mesh; beside other faces it is only a warning";
     OBJ_REFUSED = "QRT0344", "a mesh file that the OBJ library refuses",
         "Export the mesh anew";
+    OBJ_COPY = "QRT0345", "a face that a mesh has twice",
+        "Remove the second with the tool that made the mesh; it is only a warning";
+    MTL_LEFT_OUT = "QRT0346", "statements of a material that have no counterpart",
+        "Let a material of the scene with its name replace it; it is only a warning";
+    PLY_HEADER = "QRT0347", "a PLY header that cannot be read",
+        "Compare it with the page on meshes, or export the mesh anew";
+    PLY_ENDS = "QRT0348", "PLY data that end early",
+        "Check that the file is whole, and that the counts in its header are right";
+    GLTF_FEATURE = "QRT0349", "a glTF file, and a build that cannot read one",
+        "Build qrt with the feature `gltf`";
+    GLTF_TEXT = "QRT0350", "a glTF file whose JSON text cannot be read",
+        "Check the file with the glTF validator of Khronos, or export it anew";
+    GLTF_DATA = "QRT0351", "a glTF file whose binary data cannot be read",
+        "Check that the file is whole, or export it anew";
+    GLTF_POSE = "QRT0352", "a pose or shape of a glTF file that is left out",
+        "Export the mesh with it applied; it is only a warning";
     EXPR_SYNTAX = "QRT0400", "an expression that cannot be read",
         "Look at the marked place: an operator or parenthesis is missing or too many";
     EXPR_NAME = "QRT0401", "an unknown name in an expression",
@@ -224,10 +242,12 @@ codes! {
         "Give the first coordinate of `light` more bits";
     LIGHT_UNBOUNDED = "QRT0510", "next-event estimation where a lamp may touch a surface",
         "Write `mis`, or `auto`";
-    LIGHT_UNUSED = "QRT0511", "the sampling of lamps where there is nothing to sample",
+    LIGHT_UNUSED = "QRT0511", "the sampling of lamps where no surface samples one",
         "Remove it: it is a warning, and costs nothing";
     NEVER_STOPS = "QRT0512", "an error to stop at, and an estimator that does not stop",
         "Leave `counting.error` out, or use an estimator that decides itself what it measures";
+    NO_LENS = "QRT0513", "a point on a lens where there is none",
+        "Give the camera a `lens`, and sample it in the first entry of `depths`";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",
@@ -238,6 +258,10 @@ codes! {
         "Use fewer fraction bits, or a smaller scene";
     TOO_MANY_FACES = "QRT0612", "more faces than a table holds",
         "Use a coarser mesh, or find primary hits classically";
+    SPHERE_IN_TABLE = "QRT0613", "a sphere in a table of faces",
+        "Search with `--visibility classical`, or draw the sphere as a mesh";
+    SMALL_SPHERE = "QRT0614", "a sphere too small for the circuit's numbers",
+        "Use more fraction bits, or draw what is large as a quad";
     MACRO_SCENE = "QRT0701", "what stands in `qrt!` is not a scene",
         "Write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`";
     MACRO_FORMAT = "QRT0702", "a number format that is not `<Fixed<2, F>>`",
@@ -273,7 +297,7 @@ codes! {
     MACRO_LOOP_ENDS = "QRT0717", "a loop that does not run from one whole number to another",
         "Write whole numbers on both sides of `..`";
     MACRO_LOOP_SIZE = "QRT0718", "loops that take too many passes",
-        "Put large geometry into OBJ meshes";
+        "Put large geometry into mesh files (OBJ, PLY, glTF)";
     MACRO_LOOP_ENTRY = "QRT0719", "an entry that cannot be repeated",
         "Put it outside the loop";
     MACRO_MAP = "QRT0720", "a map that is not `|u, v| (x, y, z)`",
@@ -286,16 +310,6 @@ codes! {
         "Keep one of the two";
     MACRO_ATTRIBUTE = "QRT0724", "an attribute within a scene",
         "Put attributes before the scene; within it there are doc comments only";
-    MACRO_TERM = "QRT0725", "a term that is not the name of a reversible function",
-        "Write `value: fn name`, or an expression";
-    TERM_SIGNATURE = "QRT0726", "a function that cannot be a BSDF's term",
-        "Take the BSDF's variables by `&` and one `&mut` output, or three: `r`, `g` and `b`";
-    TERM_READING = "QRT0727", "something in a term that numbers have no meaning for",
-        "Write sums, products, constants, shifts, comparisons and scratch registers";
-    TERM_RANGE = "QRT0728", "a register of a term that could overflow",
-        "Give the register a wider format, or a signed one";
-    TERM_LENGTH = "QRT0729", "a term that is too long for an expression",
-        "Write fewer statements or passes of loops";
     MACRO_SCENE_TWICE = "QRT0730", "two scenes of one name in one `qrt!`",
         "Rename one of the two";
     REV_ASSIGNMENT = "QRT0801", "an assignment, which forgets what was there",
@@ -360,6 +374,8 @@ codes! {
         "Put it on a function, without arguments";
     REV_CHANGE_TWICE = "QRT0831", "a register handed over twice that is changed",
         "Hand over different registers";
+    REV_ZERO = "QRT0832", "a claim of zero that is not of a scratch register",
+        "Write `assert_zero!(t);` in the block of `let mut t: UInt<8> = 0;`";
     SET_SYNTAX = "QRT0901", "an override that is not key=value",
         "Write `--set sampling.path_bits=14` or `--set 'film={ width: 8, height: 8 }'`";
     SET_PLACE = "QRT0902", "an override of something that is not there",

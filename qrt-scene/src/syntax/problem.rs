@@ -4,7 +4,7 @@
 //! scene converts the path into file, line and column (or a token's span). A problem of the text
 //! itself has its [`Span`] from the start.
 
-use super::kinds::{What, Words};
+use super::kinds::{Description, What};
 use super::path::{Path, Place, Step};
 use super::tree::Span;
 use std::collections::HashSet;
@@ -77,7 +77,7 @@ impl Problem {
     }
 
     /// Returns the problem in words, for the author of a scene's text.
-    pub fn description(&self) -> Words {
+    pub fn description(&self) -> Description {
         self.what.description()
     }
 

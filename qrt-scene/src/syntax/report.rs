@@ -1,7 +1,7 @@
 //! Reports: problems shown in their source as a compiler shows them, with file, line and column,
 //! the source line, a caret, the code and the suggested fix.
 
-use super::kinds::{What, Words};
+use super::kinds::{Description, What};
 use super::line::line_starts;
 use super::problem::{At, Problem};
 use super::tree::{Node, Span, Value};
@@ -44,8 +44,8 @@ impl Source {
 
 /// A problem in words, and its place if it has one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Told {
-    words: Words,
+struct Described {
+    description: Description,
     /// The place; `None` if the file cannot be read.
     span: Option<Span>,
     /// The second relevant place.
@@ -58,7 +58,7 @@ pub struct Report {
     /// The scene's text first, then that of each override.
     sources: Vec<Source>,
     /// The problems in the order of their places, at most [`MOST`].
-    problems: Vec<Told>,
+    problems: Vec<Described>,
     /// Number of further problems that were left out.
     omitted: usize,
     /// True if the report holds only warnings.
@@ -114,20 +114,27 @@ impl Report {
     pub fn new(sources: Vec<Source>, tree: Option<&Node>, mut problems: Vec<Problem>) -> Self {
         let omitted = problems.len().saturating_sub(MOST);
         problems.truncate(MOST);
-        let told = problems.iter().map(|problem| tell(&sources, tree, problem));
-        let mut told: Vec<Told> = told.collect();
-        told.sort_by_key(|told| told.span.map(|span| (span.source, span.start, span.end)));
-        let mut problems: Vec<Told> = Vec::with_capacity(told.len());
-        for told in told {
-            let same = |other: &Told| {
-                (other.words.code, &other.words.message) == (told.words.code, &told.words.message)
+        let described = problems
+            .iter()
+            .map(|problem| describe(&sources, tree, problem));
+        let mut described: Vec<Described> = described.collect();
+        described.sort_by_key(|described| {
+            described
+                .span
+                .map(|span| (span.source, span.start, span.end))
+        });
+        let mut problems: Vec<Described> = Vec::with_capacity(described.len());
+        for described in described {
+            let same = |other: &Described| {
+                (other.description.code, &other.description.message)
+                    == (described.description.code, &described.description.message)
             };
             let mut here = problems
                 .iter()
                 .rev()
-                .take_while(|other| other.span == told.span);
+                .take_while(|other| other.span == described.span);
             if !here.any(same) {
-                problems.push(told);
+                problems.push(described);
             }
         }
         Self {
@@ -148,7 +155,10 @@ impl Report {
 
     /// The codes, in order.
     pub fn codes(&self) -> Vec<&'static str> {
-        self.problems.iter().map(|told| told.words.code).collect()
+        self.problems
+            .iter()
+            .map(|described| described.description.code)
+            .collect()
     }
 
     /// The problems, in the order of their places; at most [`MOST`].
@@ -166,8 +176,8 @@ impl Report {
         let lines: Vec<Lines<'_>> = sources
             .map(|source| Lines::from_text(&source.text))
             .collect();
-        self.problems.iter().map(move |told| {
-            let place = told.span.and_then(|span| {
+        self.problems.iter().map(move |described| {
+            let place = described.span.and_then(|span| {
                 let source = self.sources.get(span.source as usize)?;
                 let (line, column) = lines.get(span.source as usize)?.position(span);
                 Some(Location {
@@ -178,11 +188,11 @@ impl Report {
                 })
             });
             Reported {
-                code: told.words.code,
-                message: &told.words.message,
-                label: &told.words.label,
-                help: told.words.help.as_deref(),
-                file: told.span.map_or(first, |span| self.name(span)),
+                code: described.description.code,
+                message: &described.description.message,
+                label: &described.description.label,
+                help: described.description.help.as_deref(),
+                file: described.span.map_or(first, |span| self.name(span)),
                 place,
             }
         })
@@ -207,8 +217,8 @@ impl Report {
             .iter()
             .map(|source| Lines::from_text(&source.text))
             .collect();
-        for told in &self.problems {
-            out.push_str(&self.render_one(&renderer, &lines, told));
+        for described in &self.problems {
+            out.push_str(&self.render_one(&renderer, &lines, described));
             out.push_str("\n\n");
         }
         let name = self
@@ -231,50 +241,65 @@ impl Report {
         visible_controls(&out)
     }
 
-    fn render_one(&self, renderer: &Renderer, lines: &[Lines<'_>], told: &Told) -> String {
-        let words = &told.words;
+    fn render_one(
+        &self,
+        renderer: &Renderer,
+        lines: &[Lines<'_>],
+        described: &Described,
+    ) -> String {
+        let description = &described.description;
         let level = if self.warns {
             Level::WARNING
         } else {
             Level::ERROR
         };
-        let title = level.primary_title(words.message.as_str()).id(words.code);
+        let title = level
+            .primary_title(description.message.as_str())
+            .id(description.code);
         let mut group = Group::with_title(title);
-        let primary = told
+        let primary = described
             .span
             .and_then(|span| Some((lines.get(span.source as usize)?, span)));
         if let Some((lines_here, span)) = primary {
-            let other = told.also.map(|also| (also, words.also));
+            let other = described.also.map(|also| (also, description.also));
             let near = other.filter(|(also, _)| also.source == span.source);
             let both = near.map(|(also, _)| lines_here.excerpt(&[span, also]));
             let both = both.filter(|excerpt| excerpt.text.len() <= LONGEST);
             let near = near.filter(|_| both.is_some());
             let excerpt = both.unwrap_or_else(|| lines_here.excerpt(&[span]));
-            let mut marks = vec![(
-                AnnotationKind::Primary,
-                excerpt.within(span),
-                words.label.as_str(),
-            )];
-            if let Some((also, why)) = near {
-                marks.push((AnnotationKind::Context, excerpt.within(also), why));
+            let mut marks = vec![Mark {
+                kind: AnnotationKind::Primary,
+                range: excerpt.within(span),
+                label: description.label.as_str(),
+            }];
+            if let Some((also, label)) = near {
+                marks.push(Mark {
+                    kind: AnnotationKind::Context,
+                    range: excerpt.within(also),
+                    label,
+                });
             }
             if excerpt.text.len() > LONGEST {
                 let (line, column) = lines_here.position(span);
                 let origin = Origin::path(self.name(span)).line(line).char_column(column);
                 group = group.element(origin);
-                if !words.label.is_empty() {
-                    group =
-                        group.element(Level::NOTE.message(normalize_untrusted_str(&words.label)));
+                if !description.label.is_empty() {
+                    group = group
+                        .element(Level::NOTE.message(normalize_untrusted_str(&description.label)));
                 }
             } else {
                 group = group.element(excerpt.snippet(self.name(span), marks));
             }
-            if let Some((also, why)) = other.filter(|_| near.is_none())
+            if let Some((also, label)) = other.filter(|_| near.is_none())
                 && let Some(lines) = lines.get(also.source as usize)
                 && let excerpt = lines.excerpt(&[also])
                 && excerpt.text.len() <= LONGEST
             {
-                let marks = vec![(AnnotationKind::Context, excerpt.within(also), why)];
+                let marks = vec![Mark {
+                    kind: AnnotationKind::Context,
+                    range: excerpt.within(also),
+                    label,
+                }];
                 group = group.element(excerpt.snippet(self.name(also), marks));
             }
         } else {
@@ -284,7 +309,7 @@ impl Report {
                 .map_or("", |source| source.name.as_str());
             group = group.element(Origin::path(name));
         }
-        if let Some(help) = &words.help {
+        if let Some(help) = &description.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
         renderer.render(&[group])
@@ -354,6 +379,13 @@ impl<'a> Lines<'a> {
     }
 }
 
+/// A mark under the bytes `range` of an excerpt.
+struct Mark<'a> {
+    kind: AnnotationKind,
+    range: Range<usize>,
+    label: &'a str,
+}
+
 /// The source lines to show: enough for the spans, however long the source is.
 struct Excerpt<'a> {
     first_line: usize,
@@ -379,14 +411,14 @@ impl<'a> Excerpt<'a> {
     fn snippet(
         &self,
         name: &'a str,
-        marks: Vec<(AnnotationKind, Range<usize>, &'a str)>,
+        marks: Vec<Mark<'a>>,
     ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
-        let annotations = marks.into_iter().map(|(kind, range, label)| {
-            let annotation = kind.span(range);
-            if label.is_empty() {
+        let annotations = marks.into_iter().map(|mark| {
+            let annotation = mark.kind.span(mark.range);
+            if mark.label.is_empty() {
                 annotation
             } else {
-                annotation.label(label)
+                annotation.label(mark.label)
             }
         });
         Snippet::source(self.text)
@@ -410,7 +442,7 @@ fn visible(text: &str, span: Span) -> Range<usize> {
     start..start + line.trim_end().len()
 }
 
-fn tell(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Told {
+fn describe(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Described {
     let span = |at: &At| match at {
         At::Span(span) => Some(*span),
         At::Path(path) => {
@@ -420,8 +452,8 @@ fn tell(sources: &[Source], tree: Option<&Node>, problem: &Problem) -> Told {
             Some(part.unwrap_or(found.span))
         }
     };
-    Told {
-        words: problem.description(),
+    Described {
+        description: problem.description(),
         span: span(&problem.at),
         also: problem.also.as_ref().and_then(span),
     }

@@ -3,15 +3,17 @@
 //! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
 //! the origin, is treated like any other.
 
-use crate::scene::meshes::Meshes;
+use crate::scene::finalize::second_file;
+use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
-use crate::scene::{Geometry, Mesh, Scene};
+use crate::scene::{Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
 use crate::syntax::{
-    Material, Mesh as Unplaced, Path, Problem, Problems, Shape as Fault, Triangles, nearest,
+    Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
+    Structure, Triangles, nearest,
 };
-use crate::valid::{Polygon, Surface, matte};
+use crate::valid::{Ball, Polygon, Scatter, Surface, simple};
 use glam::DVec3;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
 /// Minimum of twice the area over the square of the longest edge: below it, rounding decides the
@@ -21,9 +23,13 @@ const LEAST_AREA: f64 = 1e-12;
 /// quad's longest extent.
 const PLANAR: f64 = 1e-9;
 
-/// The polygons of a scene's primitives and meshes.
+/// Maximum number of keywords without a counterpart that a note names.
+const MOST_KEYWORDS: usize = 16;
+
+/// The faces of a scene's primitives and meshes.
 pub(super) struct Shapes {
     pub(super) polygons: Vec<Polygon>,
+    pub(super) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(super) firsts: Vec<usize>,
     /// The files that were read for them, each once.
@@ -35,6 +41,7 @@ pub(super) fn polygons(
     meshes: &Meshes,
     surfaces: &mut Vec<Surface>,
     problems: &mut Problems,
+    warnings: &mut Vec<Problem>,
 ) -> Shapes {
     let names = HashMap::new();
     let mut build = Build {
@@ -44,10 +51,13 @@ pub(super) fn polygons(
         problems,
         names,
         out: vec![],
+        balls: vec![],
+        spheres: HashSet::new(),
         files: BTreeSet::new(),
         unknown: 0,
         own_materials: HashMap::new(),
         is_full: false,
+        warnings,
     };
     for (index, (name, _)) in scene.materials.iter().enumerate() {
         build.names.entry(name.as_str()).or_insert(index as u32);
@@ -66,11 +76,26 @@ pub(super) fn polygons(
                 let surface = build.surface(&triangle.material, &path);
                 build.triangle(&triangle.vertices, surface, &path);
             }
+            Geometry::Sphere(sphere) => {
+                let surface = build.surface(&sphere.material, &path);
+                // The first of several in one place hides the others.
+                let [x, y, z] = (sphere.center + DVec3::ZERO).to_array();
+                let place = [x, y, z, sphere.radius].map(f64::to_bits);
+                if build.spheres.insert(place) {
+                    build.balls.push(Ball {
+                        centre: sphere.center,
+                        radius: sphere.radius,
+                        surface,
+                        primitive: index,
+                    });
+                }
+            }
             Geometry::Mesh(mesh) => build.mesh(mesh, &path),
         }
     }
     Shapes {
         polygons: build.out,
+        balls: build.balls,
         firsts,
         files: build.files.into_iter().collect(),
     }
@@ -83,15 +108,18 @@ struct Build<'a> {
     problems: &'a mut Problems,
     names: HashMap<&'a str, u32>,
     out: Vec<Polygon>,
+    balls: Vec<Ball>,
+    /// Centres and radii of the spheres so far, by their bits.
+    spheres: HashSet<[u64; 4]>,
     /// Files that were read.
     files: BTreeSet<PathBuf>,
     /// Number of unknown materials so far.
     unknown: usize,
-    /// For each mesh, the index of the first of its own materials in `surfaces`: copies of a mesh
-    /// share them.
-    own_materials: HashMap<&'a str, u32>,
+    /// For each mesh, the indices of its materials in `surfaces`: copies of a mesh share them.
+    own_materials: HashMap<(MeshFormat, &'a str), Vec<u32>>,
     /// True if a mesh has exceeded the limit on faces.
     is_full: bool,
+    warnings: &'a mut Vec<Problem>,
 }
 
 impl<'a> Build<'a> {
@@ -110,7 +138,7 @@ impl<'a> Build<'a> {
         self.unknown += 1;
         let advised = if self.unknown <= 100 { 1000 } else { 0 };
         let names = self.scene.materials.iter().map(|(name, _)| name.as_str());
-        let what = Material::Unknown {
+        let what = Naming::Unknown {
             name: name.to_owned(),
             near: nearest(name, names.clone().take(advised)).map(str::to_owned),
             defined: names
@@ -166,53 +194,56 @@ impl<'a> Build<'a> {
     }
 
     fn mesh(&mut self, mesh: &'a Mesh, path: &Path) {
+        let Some((format, name)) = mesh.file() else {
+            let mut formats = mesh.files().map(|(format, _)| format.name());
+            if let (Some(first), Some(second)) = (formats.next(), formats.next()) {
+                self.problems.push(second_file(path, first, second));
+            } else {
+                self.problems.add(path.clone(), Structure::NoFile);
+            }
+            return;
+        };
+        let file = (format, name);
+        let place = path.key(format.name());
         let named = mesh.material.as_ref().map(|name| self.surface(name, path));
         let read = match self.meshes.get(mesh) {
             Ok(read) => read,
             Err(error) => {
-                self.problems.add(path.key("obj"), error.problem());
+                self.problems.add(place.clone(), error.problem());
                 return;
             }
         };
+        if read.files.iter().any(|file| !self.files.contains(file)) {
+            for note in &read.notes {
+                let note = Problem::new(place.clone(), note.clone().problem());
+                // The mesh may have been placed with another choice of materials.
+                if !self.warnings.iter().any(|known| known.what == note.what) {
+                    self.warnings.push(note);
+                }
+            }
+        }
         self.files.extend(read.files.iter().cloned());
         let triangles = self.out.len() + read.faces.len();
         let most = self.meshes.most_faces();
         if triangles > most {
             let what = Unplaced::TooMany { triangles, most };
             if !std::mem::replace(&mut self.is_full, true) {
-                self.problems.add(path.key("obj"), what);
+                self.problems.add(place.clone(), what);
             }
             return;
         }
         let transform = Transform::from_mesh(mesh);
-        let first = self.own_materials.get(mesh.obj.as_str()).copied();
-        let is_new = first.is_none() && named.is_none();
-        let first = first.unwrap_or(self.surfaces.len() as u32);
-        if is_new {
-            self.own_materials.insert(&mesh.obj, first);
-            for material in &read.materials {
-                if let Some(radiance) = material.radiance.iter().find(|value| **value > LARGEST) {
-                    let what = Unplaced::TooBright {
-                        material: material.name.clone(),
-                        radiance: *radiance,
-                        most: LARGEST,
-                    };
-                    self.problems.add(path.key("obj"), what);
-                }
-                self.surfaces.push(Surface {
-                    name: material.name.clone(),
-                    radiance: material.radiance,
-                    scatter: matte(material.albedo),
-                });
-            }
-        }
+        let own = match named {
+            None => self.own_materials(file, read, &place),
+            Some(_) => Vec::new(),
+        };
         self.out.reserve_exact(read.faces.len());
         let mut flat = Vec::new();
         let mut bare = Vec::new();
         let mut far = Vec::new();
         for (index, face) in read.faces.iter().enumerate() {
-            let own = || face.material.map(|material| first + material as u32);
-            let Some(surface) = named.or_else(own) else {
+            let of_file = || face.material.map(|material| own[material]);
+            let Some(surface) = named.or_else(of_file) else {
                 bare.push(index);
                 continue;
             };
@@ -238,9 +269,73 @@ impl<'a> Build<'a> {
             if let Some(&first) = faces.first() {
                 let some = faces.len();
                 let what = what(Triangles { some, all, first });
-                self.problems.add(path.key("obj"), what);
+                self.problems.add(place.clone(), what);
             }
         }
+    }
+}
+
+impl<'a> Build<'a> {
+    /// Returns the surfaces of the materials of a mesh's file, as indices into `surfaces`. Those
+    /// that materials of the scene replace are the scene's.
+    fn own_materials(
+        &mut self,
+        file: (MeshFormat, &'a str),
+        read: &FileMesh,
+        place: &Path,
+    ) -> Vec<u32> {
+        if let Some(known) = self.own_materials.get(&file) {
+            return known.clone();
+        }
+        let (mut own, mut left_out) = (Vec::with_capacity(read.materials.len()), Vec::new());
+        for material in &read.materials {
+            if let Some(&surface) = self.names.get(material.name.as_str()) {
+                own.push(surface);
+                continue;
+            }
+            own.push(self.surfaces.len() as u32);
+            let black = Material::Lambertian(Lambertian { albedo: [0.0; 3] });
+            let meant = match &material.material {
+                Ok(meant) => meant,
+                Err(error) => {
+                    // A faulty material of the scene may be meant to replace it.
+                    if !self.problems.covers(&Path::root().key("materials")) {
+                        self.problems.add(place.clone(), error.clone().problem());
+                    }
+                    &black
+                }
+            };
+            let (radiance, scatter) = simple(meant).unwrap_or(([0.0; 3], Scatter::Black));
+            if let Some(radiance) = radiance.iter().find(|value| **value > LARGEST) {
+                let what = Unplaced::TooBright {
+                    material: material.label.clone(),
+                    radiance: *radiance,
+                    most: LARGEST,
+                };
+                self.problems.add(place.clone(), what);
+            }
+            self.surfaces.push(Surface {
+                name: material.label.clone(),
+                radiance,
+                scatter,
+            });
+            if !material.left_out.is_empty() {
+                left_out.push(material);
+            }
+        }
+        if let Some(first) = left_out.first() {
+            let keywords: BTreeSet<&String> = left_out.iter().flat_map(|m| &m.left_out).collect();
+            let what = MeshFile::LeftOut {
+                keywords: keywords.into_iter().take(MOST_KEYWORDS).cloned().collect(),
+                name: first.name.clone(),
+                others: left_out.len() - 1,
+            };
+            let note = FileError::new(what, &first.file, first.place.clone());
+            self.warnings
+                .push(Problem::new(place.clone(), note.problem()));
+        }
+        self.own_materials.insert(file, own.clone());
+        own
     }
 }
 
@@ -273,7 +368,7 @@ fn unit<const N: usize>(vertices: &[DVec3; N]) -> [DVec3; N] {
     edges.map(|edge| edge / size)
 }
 
-fn triangle_fault(vertices: &[DVec3; 3]) -> Option<Fault> {
+pub(crate) fn triangle_fault(vertices: &[DVec3; 3]) -> Option<Fault> {
     if let Some(fault) = coincident(vertices) {
         return Some(fault);
     }

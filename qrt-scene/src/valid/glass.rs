@@ -24,8 +24,7 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     if glass.is_empty() || problems.count() > 0 {
         return;
     }
-    let vertices = valid.polygons.iter().flat_map(|polygon| &polygon.vertices);
-    let (centre, scale) = stage_units(vertices);
+    let (centre, scale) = stage_units(valid.extent());
     let staged = |polygon: &usize| -> Vec<DVec3> {
         let outline = valid.polygons[*polygon].outline().iter();
         outline.map(|corner| (*corner - centre) * scale).collect()

@@ -1,7 +1,7 @@
 //! Checks the sampling of lamps: lamps to sample, surfaces to sample them from, and enough bits.
 
-use super::{Polygon, Scatter, ValidScene};
-use crate::lights::{Reached, is_parallelogram, strongest};
+use super::{Polygon, Scatter, Surface, ValidScene};
+use crate::lights::{LitFace, Reached, is_parallelogram, strongest_of};
 use crate::scene::{Lights, Sequence};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 use glam::DVec3;
@@ -9,8 +9,8 @@ use glam::DVec3;
 /// Maximum number of pairs of a surface's polygon and a lamp's for which a bound is computed.
 pub const MOST_PAIRS: usize = 1 << 18;
 
-/// Checks the sampling of lamps. If there is no lamp, or no surface that could use the sampling,
-/// removes the sampling with a warning. Cuts lamps into shapes that can be sampled.
+/// Checks the sampling of lamps. Removes it if there is no lamp, of which the scene has a warning,
+/// or with a warning if no surface could use it. Cuts lamps into shapes that can be sampled.
 pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
     let sampling = &valid.scene.sampling;
     let depths = Path::root().key("sampling").key("depths");
@@ -24,18 +24,16 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         return;
     }
     let light = |depth: usize| depths.item(depth).key("light");
-    let surface = |polygon: &Polygon| &valid.materials[polygon.surface as usize];
-    let lamps = valid.polygons.iter().filter(|p| surface(p).emits());
-    let mut receivers = valid.polygons.iter();
-    let unused = if lamps.count() == 0 {
-        Some(Fault::NoLamp)
-    } else if receivers.any(|p| surface(p).samples_lights()) {
-        None
-    } else {
-        Some(Fault::NoReceiver)
+    let any = |holds: fn(&Surface) -> bool| {
+        let mut faces = valid.surface_of_faces();
+        faces.any(|surface| holds(&valid.materials[surface as usize]))
     };
-    if let Some(unused) = unused {
-        valid.warnings.push(Problem::new(light(first), unused));
+    let (emits, samples) = (any(Surface::emits), any(Surface::samples_lights));
+    if !emits || !samples {
+        if emits {
+            let unused = Problem::new(light(first), Fault::NoReceiver);
+            valid.warnings.push(unused);
+        }
         let sampling = &mut valid.scene.sampling;
         for depth in &mut sampling.depths {
             depth.light = None;
@@ -46,45 +44,52 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         return;
     }
     cut_lamps(valid);
-    let materials = &valid.materials;
-    let surface = |polygon: &&Polygon| &materials[polygon.surface as usize];
-    let lamps: Vec<&Polygon> = valid
-        .polygons
-        .iter()
-        .filter(|p| surface(p).emits())
-        .collect();
+    let faces = faces(valid);
+    let lamps = || faces.iter().filter(|(_, surface)| surface.emits());
+    let count = lamps().count();
     for depth in asked {
         let [bits, _] = valid.scene.sampling.light(depth).unwrap_or_default();
-        if lamps.len() > 1 << bits {
+        if count > 1 << bits {
             let what = Fault::FewLightBits {
-                lamps: lamps.len(),
+                lamps: count,
                 bits,
-                needed: lamps.len().next_power_of_two().ilog2(),
+                needed: count.next_power_of_two().ilog2(),
             };
             problems.push(Problem::new(light(depth).item(0), what));
         }
     }
     if valid.scene.sampling.lights == Lights::NextEvent {
-        let matte = |surface: &&Polygon| {
-            let scatter = &materials[surface.surface as usize].scatter;
-            matches!(scatter, Scatter::Lambertian(_))
-        };
-        let matte: Vec<&Polygon> = valid.polygons.iter().filter(matte).collect();
-        let touched = matte.iter().find(|face| {
-            let reached = |lamp: &&Polygon| {
-                if matte.len() * lamps.len() > MOST_PAIRS {
+        let matte = faces
+            .iter()
+            .filter(|(_, surface)| matches!(surface.scatter, Scatter::Lambertian(_)));
+        let matte: Vec<&(LitFace<'_>, &Surface)> = matte.collect();
+        let touched = matte.iter().find(|(face, _)| {
+            let reached = |lamp: LitFace<'_>| {
+                if matte.len() * count > MOST_PAIRS {
                     return Reached::UNBOUNDED;
                 }
-                strongest([face.outline()].into_iter(), lamp.outline())
+                strongest_of([*face].into_iter(), lamp)
             };
-            lamps.iter().any(|lamp| reached(lamp).form.is_infinite())
+            lamps().any(|(lamp, _)| reached(*lamp).form.is_infinite())
         });
-        if let Some(face) = touched {
-            let surface = surface(face).name.clone();
+        if let Some((_, surface)) = touched {
+            let surface = surface.name.clone();
             let place = Path::root().key("sampling").key("lights");
             problems.push(Problem::new(place, Fault::LightUnbounded { surface }));
         }
     }
+}
+
+/// The faces of a scene with their surfaces.
+fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
+    let polygons = valid.polygons.iter().map(|p| LitFace::Polygon(p.outline()));
+    let balls = valid.balls.iter().map(|ball| LitFace::Sphere {
+        centre: ball.centre,
+        radius: ball.radius,
+    });
+    let surfaces = valid.surface_of_faces();
+    let surfaces = surfaces.map(|surface| &valid.materials[surface as usize]);
+    polygons.chain(balls).zip(surfaces).collect()
 }
 
 /// Cuts each quadrilateral that emits and is no parallelogram into two triangles, since points on a lamp

@@ -8,11 +8,13 @@ pub mod bsdf;
 mod camera;
 mod counting;
 mod geometry;
+pub(crate) use geometry::triangle_fault;
 mod glass;
 pub mod lights;
 mod notes;
 mod parameters;
 mod sampling;
+mod sky;
 
 pub use counting::most_strata;
 pub use parameters::Parameters;
@@ -22,15 +24,14 @@ use crate::expr::Expr;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
-use crate::scene::{
-    Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene, Sequence,
-};
+use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// A checked scene, which all later stages require. Only validation ([`validate`]) creates one.
 #[derive(Clone, Debug)]
@@ -38,16 +39,19 @@ pub struct ValidScene {
     pub(crate) scene: Scene,
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
+    pub(crate) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(crate) firsts: Vec<usize>,
     pub(crate) files: Vec<PathBuf>,
     pub(crate) warnings: Vec<Problem>,
     /// The number of the strategy that `uncompute: auto` chooses, cached because it takes a search.
     auto: OnceLock<usize>,
+    /// Number of programs recorded from this scene, or from it with other parameters.
+    recordings: Arc<AtomicU64>,
 }
 
 /// The emission and scattering of a surface. [`ValidScene::surfaces`] lists the scene's materials
-/// first, in their order, then those of MTL files.
+/// first, in their order, then those of mesh files.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// The name in the scene, or `FILE.mtl:NAME`.
@@ -123,6 +127,26 @@ pub struct Polygon {
     pub surface: u32,
 }
 
+/// A sphere in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// The centre.
+    pub centre: DVec3,
+    /// The radius, above 0.
+    pub radius: f64,
+    /// The sphere's surface, as an index into [`ValidScene::surfaces`].
+    pub surface: u32,
+    /// The sphere's number in the scene's list of primitives.
+    pub primitive: usize,
+}
+
+impl Ball {
+    /// Two opposite corners of the box around the sphere.
+    pub fn corners(&self) -> [DVec3; 2] {
+        [self.centre - self.radius, self.centre + self.radius]
+    }
+}
+
 impl ValidScene {
     /// The scene as its author wrote it.
     pub fn scene(&self) -> &Scene {
@@ -134,6 +158,16 @@ impl ValidScene {
     pub fn strategy_cache(&self) -> &OnceLock<usize> {
         &self.auto
     }
+    /// Number of programs that the compiler has recorded from this scene, and from it with other
+    /// parameters. Each recording traces the scene once; the oracles of all channels come from one.
+    pub fn recordings(&self) -> u64 {
+        self.recordings.load(Ordering::Relaxed)
+    }
+    /// Counts a recording; for the compiler.
+    #[doc(hidden)]
+    pub fn count_recording(&self) {
+        self.recordings.fetch_add(1, Ordering::Relaxed);
+    }
     /// All surfaces that polygons may refer to.
     pub fn surfaces(&self) -> &[Surface] {
         &self.materials
@@ -142,9 +176,32 @@ impl ValidScene {
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
+    /// All spheres of the scene.
+    pub fn balls(&self) -> &[Ball] {
+        &self.balls
+    }
+    /// The surface of each face: of the polygons, and then of the spheres.
+    pub fn surface_of_faces(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        (0..self.polygons.len() + self.balls.len()).map(|face| self.surface_of_face(face))
+    }
+    /// The surface of face number `face`.
+    ///
+    /// # Panics
+    /// If there is no face of that number.
+    pub fn surface_of_face(&self, face: usize) -> u32 {
+        match face.checked_sub(self.polygons.len()) {
+            None => self.polygons[face].surface,
+            Some(ball) => self.balls[ball].surface,
+        }
+    }
+    /// Points whose box is that around all faces.
+    pub fn extent(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let polygons = self.polygons.iter().flat_map(|polygon| polygon.vertices);
+        polygons.chain(self.balls.iter().flat_map(Ball::corners))
+    }
     /// Returns the polygons of a primitive, as a range of [`ValidScene::polygons`]: one; two of a
     /// quad that is not planar, or of a sampled lamp that is no parallelogram; or all of a mesh. The
-    /// range is empty if there is no primitive of that number.
+    /// range is empty for a sphere, and if there is no primitive of that number.
     pub fn polygons_of(&self, primitive: usize) -> std::ops::Range<usize> {
         let end = self.polygons.len();
         let first = |primitive: usize| self.firsts.get(primitive).copied().unwrap_or(end);
@@ -172,57 +229,31 @@ impl ValidScene {
         &self.files
     }
 
-    /// Returns the scene with at most `most` of its polygons, evenly spaced, and a lamp if it has
-    /// one. The cost of this part predicts the cost of the whole. `most` is at least 2.
-    pub fn thinned(&self, most: usize) -> Self {
-        let all = self.polygons.len();
-        let lamp = |polygon: &&Polygon| self.materials[polygon.surface as usize].emits();
-        let lamp = self.polygons.iter().find(lamp);
-        let kept = most.min(all).saturating_sub(usize::from(lamp.is_some()));
-        let taken = (0..kept).map(|n| &self.polygons[n * all / kept]);
-        Self {
-            polygons: lamp.into_iter().chain(taken).copied().collect(),
-            auto: OnceLock::new(),
-            ..self.clone()
-        }
-    }
-
-    /// Returns the scene with only the first `most` rays of each path, at least 1. The cost of
-    /// these rays predicts the cost of all.
-    pub fn with_rays(&self, most: usize) -> Self {
-        let mut part = Self {
-            auto: OnceLock::new(),
-            ..self.clone()
-        };
-        let sampling = &mut part.scene.sampling;
-        sampling.depths.truncate(most.max(1));
-        if sampling.sequence == Sequence::ProductLattice {
-            sampling.path_bits = sampling.lattice_bits();
-        }
-        part
-    }
-
     /// Returns the warnings about parts that are not errors but probably unintended.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
     }
 
     /// Returns the 128-bit FNV-1a hash of the scene's canonical text (see [`Scene::fingerprint`]),
-    /// of the corners of all polygons, bit for bit, and of the surfaces that MTL files add. It
+    /// of the corners of all polygons, bit for bit, and of the surfaces that mesh files add. It
     /// changes with everything that changes the picture, in the scene or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
-            let albedo = match surface.scatter {
-                Scatter::Lambertian(Lambertian { albedo }) => albedo,
-                Scatter::Black
-                | Scatter::Mirror(_)
-                | Scatter::Dielectric(_)
-                | Scatter::Ggx(_)
-                | Scatter::Phong(_)
-                | Scatter::Custom(_) => [0.0; 3],
+            let (kind, values) = match &surface.scatter {
+                Scatter::Lambertian(Lambertian { albedo }) => (0, albedo.to_vec()),
+                // User-defined BSDFs are the scene's alone.
+                Scatter::Black | Scatter::Custom(_) => (0, vec![0.0; 3]),
+                Scatter::Mirror(mirror) => (1, mirror.reflectance.to_vec()),
+                Scatter::Dielectric(glass) => (2, vec![glass.ior]),
+                Scatter::Ggx(ggx) => (3, [&[ggx.alpha], &ggx.reflectance[..]].concat()),
+                Scatter::Phong(phong) => {
+                    let colours = [phong.diffuse, phong.specular].concat();
+                    (4, [&colours[..], &[phong.exponent]].concat())
+                }
             };
-            for value in surface.radiance.into_iter().chain(albedo) {
+            print = print.and(&[kind]);
+            for value in surface.radiance.into_iter().chain(values) {
                 print = print.and(&value.to_bits().to_le_bytes());
             }
         }
@@ -238,7 +269,7 @@ impl ValidScene {
     }
 }
 
-/// Checks a scene and its meshes, which [`crate::front::obj::load_all`] reads.
+/// Checks a scene and its meshes, which [`crate::front::load_all`] reads.
 ///
 /// # Errors
 /// All problems of the scene.
@@ -262,21 +293,24 @@ pub fn validate(scene: Scene, meshes: &Meshes) -> Result<ValidScene, InvalidScen
 
 /// Checks as [`validate`] does, for a scene whose reading has found `problems`.
 pub(crate) fn check(
-    scene: Scene,
+    mut scene: Scene,
     meshes: &Meshes,
     mut problems: Problems,
 ) -> Result<ValidScene, Vec<Problem>> {
     scene.check(&Place::ROOT, &mut problems);
     // A value out of its own range is not compared with other values.
     problems.finalize();
+    crate::scene::finalize::sample_lens(&mut scene);
     camera::check(&scene.camera, &mut problems);
+    sky::check(scene.sky.as_ref(), &mut problems);
     sampling::check(&scene, &mut problems);
     counting::check(&scene, &mut problems);
     let mut warnings = Vec::new();
     let mut materials = surfaces(&scene, &mut problems, &mut warnings);
-    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems);
+    let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems, &mut warnings);
     let geometry::Shapes {
         polygons,
+        balls,
         firsts,
         files,
     } = shapes;
@@ -284,10 +318,12 @@ pub(crate) fn check(
         scene,
         materials,
         polygons,
+        balls,
         firsts,
         files,
         warnings,
         auto: OnceLock::new(),
+        recordings: Arc::default(),
     };
     glass::check(&valid, &mut problems);
     if problems.count() == 0 {
@@ -307,25 +343,19 @@ fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>)
     let mut surfaces = Vec::with_capacity(scene.materials.len());
     for (name, material) in &scene.materials {
         let path = materials.key(name.as_str());
-        let (radiance, scatter) = match material {
-            Material::Lambertian(part) => ([0.0; 3], matte(part.albedo)),
-            Material::Emitter(part) => (part.radiance, matte(part.albedo)),
-            Material::Mirror(part) => ([0.0; 3], Scatter::Mirror(*part)),
-            Material::Dielectric(part) => ([0.0; 3], Scatter::Dielectric(*part)),
-            Material::Ggx(part) => ([0.0; 3], Scatter::Ggx(*part)),
-            Material::Phong(part) => {
-                problems.extend(phong_energy(part, &path));
-                ([0.0; 3], Scatter::Phong(*part))
-            }
-            Material::Bsdf(_) if !is_checked => ([0.0; 3], Scatter::Black),
-            Material::Bsdf(part) => {
-                let compiled = known
-                    .entry(part)
-                    .or_insert_with(|| bsdf::compile_with(part, &mut map));
-                let scatter = custom(part, compiled, &path.key("bsdf"), problems, warnings);
-                ([0.0; 3], scatter)
-            }
-        };
+        if let Material::Phong(part) = material {
+            problems.extend(phong_energy(part, &path));
+        }
+        let (radiance, scatter) = simple(material).unwrap_or_else(|part| {
+            let compile = || bsdf::compile_with(part, &mut map);
+            let scatter = if is_checked {
+                let compiled = known.entry(part).or_insert_with(compile);
+                custom(part, compiled, &path.key("bsdf"), problems, warnings)
+            } else {
+                Scatter::Black
+            };
+            ([0.0; 3], scatter)
+        });
         surfaces.push(Surface {
             name: name.clone(),
             radiance,
@@ -333,6 +363,21 @@ fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>)
         });
     }
     surfaces
+}
+
+/// Returns the radiance and scattering of a material, or its user-defined BSDF, which has to be
+/// compiled.
+fn simple(material: &Material) -> Result<(Rgb, Scatter), &Bsdf> {
+    let scatter = match material {
+        Material::Lambertian(part) => matte(part.albedo),
+        Material::Emitter(part) => return Ok((part.radiance, matte(part.albedo))),
+        Material::Mirror(part) => Scatter::Mirror(*part),
+        Material::Dielectric(part) => Scatter::Dielectric(*part),
+        Material::Ggx(part) => Scatter::Ggx(*part),
+        Material::Phong(part) => Scatter::Phong(*part),
+        Material::Bsdf(part) => return Err(part),
+    };
+    Ok(([0.0; 3], scatter))
 }
 
 /// Returns a problem if checking all user-defined BSDFs takes too long, at the BSDF that exceeds
@@ -358,7 +403,7 @@ fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
 }
 
 /// Returns a Lambertian, or black if nothing is reflected: the path then ends.
-pub(crate) fn matte(albedo: Rgb) -> Scatter {
+fn matte(albedo: Rgb) -> Scatter {
     if albedo == [0.0; 3] {
         Scatter::Black
     } else {

@@ -6,7 +6,7 @@
 mod view;
 
 use super::lights::MOST_PAIRS;
-use super::{Polygon, Scatter, ValidScene};
+use super::{Ball, Polygon, Scatter, ValidScene};
 use crate::polygons::{bounds, overlap};
 use crate::scene::Geometry;
 use crate::syntax::{Material, Path, Problem, Unlit};
@@ -31,20 +31,23 @@ pub(super) fn warnings(valid: &ValidScene) -> Vec<Problem> {
     found
 }
 
-/// Materials of the scene that no primitive names.
+/// Materials of the scene that no primitive names and no mesh uses.
 fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
-    let used: HashSet<&str> = valid
-        .scene
-        .geometry
-        .iter()
-        .filter_map(|primitive| match primitive {
-            Geometry::Quad(quad) => Some(quad.material.as_str()),
-            Geometry::Triangle(triangle) => Some(triangle.material.as_str()),
-            Geometry::Mesh(mesh) => mesh.material.as_deref(),
-        })
-        .collect();
-    let names = valid.scene.materials.iter().map(|(name, _)| name);
-    let unused = names.filter(|name| !used.contains(name.as_str()));
+    let named = valid.scene.geometry.iter().filter_map(|p| match p {
+        Geometry::Quad(quad) => Some(quad.material.as_str()),
+        Geometry::Triangle(triangle) => Some(triangle.material.as_str()),
+        Geometry::Sphere(sphere) => Some(sphere.material.as_str()),
+        Geometry::Mesh(mesh) => mesh.material.as_deref(),
+    });
+    let used: HashSet<&str> = named.collect();
+    // A material of the scene may replace that of a mesh's file.
+    let mut has_faces = vec![false; valid.materials.len()];
+    for polygon in &valid.polygons {
+        has_faces[polygon.surface as usize] = true;
+    }
+    let names = valid.scene.materials.iter().zip(has_faces);
+    let unused = names.filter(|((name, _), has_faces)| !has_faces && !used.contains(name.as_str()));
+    let unused = unused.map(|((name, _), _)| name);
     let unused: Vec<&String> = unused.collect();
     let told = unused.len().min(MOST_UNUSED);
     let warning = |(number, name): (usize, &&String)| {
@@ -61,6 +64,10 @@ fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
 
 /// A warning if every picture of the scene is black.
 fn unlit(valid: &ValidScene) -> Option<Problem> {
+    let shines = |ball: &Ball| valid.materials[ball.surface as usize].emits();
+    if valid.scene.sky.is_some_and(|sky| sky.shines()) || valid.balls.iter().any(shines) {
+        return None;
+    }
     let lamps = || {
         valid
             .polygons
@@ -71,6 +78,10 @@ fn unlit(valid: &ValidScene) -> Option<Problem> {
     let Some((first, _)) = lamps().next() else {
         return Some(Problem::new(Path::root().name("geometry"), Unlit::NoLamp));
     };
+    if !valid.balls.is_empty() || valid.scene.lens().is_some() {
+        // Spheres are not compared with lamps, and a lens sees more than the pinhole.
+        return None;
+    }
     let view = View::new(&valid.scene.camera, valid.scene.film);
     let receivers = receivers(valid, &view);
     let around = corners_around(&receivers);

@@ -4,6 +4,7 @@ use super::{ValidScene, counting, lights, sampling};
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
 use crate::syntax::{Place, Problem, Problems};
+use std::sync::OnceLock;
 
 /// The parameters of a scene that trade accuracy for cost. The limit of the picture depends on none
 /// of them but the number of [`Sampling::depths`].
@@ -56,7 +57,11 @@ impl ValidScene {
     /// assert_eq!(problems[0].path().unwrap().to_string(), "comparator.bits");
     /// ```
     pub fn with_parameters(&self, parameters: Parameters) -> Result<Self, Vec<Problem>> {
-        let mut changed = self.clone();
+        let mut changed = Self {
+            // Another circuit may need another strategy.
+            auto: OnceLock::new(),
+            ..self.clone()
+        };
         let scene = &mut changed.scene;
         scene.sampling = parameters.sampling;
         scene.precision = parameters.precision;

@@ -29,6 +29,16 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let light = path.key("depths").item(0).key("light");
         problems.add(light, Fault::PrimaryLight);
     }
+    for (depth, sampled) in sampling.depths.iter().enumerate() {
+        let what = match depth {
+            0 if scene.lens().is_some() => continue,
+            0 => Fault::NoLens,
+            _ => Fault::ReflectedLens,
+        };
+        if sampled.lens.is_some() {
+            problems.add(path.key("depths").item(depth).key("lens"), what);
+        }
+    }
     match sampling.sequence {
         Sequence::DigitalNet => {
             let dimensions = 2 * sampling.squares().count();

@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::{memory, terminal};
 use clap::Args;
-use qrt_runtime::image::compare::{
-    Difference, ErrorMap, PIXELS_PER_DEGREE, SizesDiffer, difference, flip_of_display,
+use qrt_lab::compare::{
+    ErrorMap, PIXELS_PER_DEGREE, PictureDifference, SizesDiffer, difference, flip_of_display,
     flip_of_radiance,
 };
 use qrt_runtime::image::{Encoding, Image, Metadata, save};
@@ -133,7 +133,7 @@ fn same_place(one: Option<PlaceInFrame>, other: Option<PlaceInFrame>) -> Result<
     )))
 }
 
-fn text(args: &DiffArgs, reference: &Image, found: &Difference, flip: &ErrorMap) -> String {
+fn text(args: &DiffArgs, reference: &Image, found: &PictureDifference, flip: &ErrorMap) -> String {
     let mean = found.reference_mean.iter().sum::<f64>() / 3.0;
     let of_mean = match found.rmse / mean {
         share if share.is_finite() => {
@@ -180,7 +180,7 @@ fn short(value: f64) -> String {
 fn to_json(
     args: &DiffArgs,
     radiance: bool,
-    found: &Difference,
+    found: &PictureDifference,
     flip: &ErrorMap,
 ) -> serde_json::Value {
     json!({

@@ -4,9 +4,9 @@ use super::ExportArgs;
 use crate::cli::failure::Failure;
 use crate::cli::files::{Output, keep_apart, named_after};
 use crate::cli::terminal;
-use qrt_runtime::mitsuba::{Exported, export};
+use qrt_lab::mitsuba::{Exported, export};
+use qrt_lab::shell;
 use qrt_runtime::replace_file::replace_file;
-use qrt_runtime::shell;
 use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ pub(super) fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
         write(output, &mesh.bytes)?;
     }
     write(&output, text.as_bytes())?;
-    let faces = scene.polygons().len();
+    let faces = scene.surface_of_faces().len();
     if args.json {
         let files: Vec<String> = paths
             .iter()

@@ -5,19 +5,21 @@ mod mitsuba;
 use super::args::{SceneArgs, choice, on_film, pixel};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
-use super::inspect::{CHANNEL_CHOICES, channel_name, cost, keep_budget};
-use super::memory;
+use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
+use super::prepare::{self, Preparation};
 use super::progress::Bar;
-use super::{interrupt, plan, terminal};
+use super::{interrupt, terminal};
 use clap::Args;
-use qrt_circuit::export::{Export, ExportError, Format, Tally};
+use qrt_circuit::export::{Export, ExportCounts, ExportError, ExportFormat};
 use qrt_circuit::lower::Cost;
-use qrt_circuit::quantum::{Conjunction, Counting, Part, PhaseOracle, QuantumError};
+use qrt_circuit::quantum::{CircuitPart, Conjunction, CountingCircuit, PhaseOracle, QuantumError};
 use qrt_core::inspect::{Inspection, OraclePixel, grouped};
 use qrt_core::oracle::{OracleName, PARTS_OF_A_CALL};
 use qrt_counting::Stratum;
+use qrt_lab::json;
+use qrt_lab::verify::{PixelCounts, pixel_counts};
 use qrt_runtime::memory::CircuitWork;
-use qrt_runtime::plan::{Figures, Options as PlanOptions};
+use qrt_runtime::plan::{PlanFigures, PlanOptions};
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::workers::{Progress, Workers};
 use qrt_scene::Window;
@@ -31,7 +33,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Language {
     /// A circuit.
-    Circuit(Format),
+    Circuit(ExportFormat),
     /// The scene, for Mitsuba.
     Mitsuba,
 }
@@ -47,11 +49,11 @@ impl Language {
 
 const LANGUAGES: [(Language, &str); 3] = [
     (
-        Language::Circuit(Format::OpenQasm3),
+        Language::Circuit(ExportFormat::OpenQasm3),
         "OpenQASM 3.0, of its standard gates alone",
     ),
     (
-        Language::Circuit(Format::OpenQasm2),
+        Language::Circuit(ExportFormat::OpenQasm2),
         "OpenQASM 2.0, for programs that do not read version 3",
     ),
     (
@@ -60,10 +62,13 @@ const LANGUAGES: [(Language, &str); 3] = [
     ),
 ];
 
-const PARTS: [(Part, &str); 3] = [
-    (Part::Oracle, "O_f, once"),
-    (Part::Grover, "One iterate G = H O_0 H O_f"),
-    (Part::Counting, "The whole circuit of quantum counting"),
+const PARTS: [(CircuitPart, &str); 3] = [
+    (CircuitPart::Oracle, "O_f, once"),
+    (CircuitPart::Grover, "One iterate G = H O_0 H O_f"),
+    (
+        CircuitPart::Counting,
+        "The whole circuit of quantum counting",
+    ),
 ];
 
 /// Bytes of a gate's line in a circuit of some 10,000 to 100,000 qubits.
@@ -105,7 +110,7 @@ pub(crate) struct ExportArgs {
     format: Language,
     /// The part of the circuit [default: oracle]
     #[arg(long, value_parser = choice(PARTS, part_name))]
-    part: Option<Part>,
+    part: Option<CircuitPart>,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<[u32; 2]>,
@@ -131,8 +136,8 @@ pub(crate) struct ExportArgs {
 }
 
 impl ExportArgs {
-    fn part(&self) -> Part {
-        self.part.unwrap_or(Part::Oracle)
+    fn part(&self) -> CircuitPart {
+        self.part.unwrap_or(CircuitPart::Oracle)
     }
 
     fn seed(&self) -> u64 {
@@ -144,25 +149,25 @@ impl ExportArgs {
     }
 }
 
-fn part_name(part: Part) -> &'static str {
+fn part_name(part: CircuitPart) -> &'static str {
     match part {
-        Part::Oracle => "oracle",
-        Part::Grover => "grover",
-        Part::Counting => "counting",
+        CircuitPart::Oracle => "oracle",
+        CircuitPart::Grover => "grover",
+        CircuitPart::Counting => "counting",
     }
 }
 
 /// Returns the comment that describes a part, for readers of the file.
-fn about(part: Part) -> &'static [&'static str] {
+fn about(part: CircuitPart) -> &'static [&'static str] {
     match part {
-        Part::Oracle => &[
+        CircuitPart::Oracle => &[
             "Flips the sign of each good index: of a path whose colour exceeds the comparator's threshold.",
         ],
-        Part::Grover => &[
+        CircuitPart::Grover => &[
             "G = H O_0 H O_f: rotates the plane of good and other indices by theta turns, where",
             "sin(pi theta)^2 = S/N for S good indices of N. Its global phase is included.",
         ],
-        Part::Counting => &[
+        CircuitPart::Counting => &[
             "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
             "sin(pi theta)^2 = S/N for S good indices of N.",
         ],
@@ -170,11 +175,11 @@ fn about(part: Part) -> &'static [&'static str] {
 }
 
 /// Returns, in words, the qubits and gates of a part that the oracle does not have.
-fn beside_oracle(part: Part) -> Option<&'static str> {
+fn beside_oracle(part: CircuitPart) -> Option<&'static str> {
     match part {
-        Part::Oracle => None,
-        Part::Grover => Some("Beside the oracle, the iterate has the reflection O_0."),
-        Part::Counting => Some(
+        CircuitPart::Oracle => None,
+        CircuitPart::Grover => Some("Beside the oracle, the iterate has the reflection O_0."),
+        CircuitPart::Counting => Some(
             "Beside its calls of the oracle, counting has the phase register, its window and inverse \
              Fourier transform, and a reflection O_0 after each call.",
         ),
@@ -196,7 +201,7 @@ fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> 
         return Ok(None);
     };
     let refuse = |message: String| Err(Failure::Usage(message));
-    if args.part() == Part::Oracle {
+    if args.part() == CircuitPart::Oracle {
         return refuse(
             "--stratum is of what is counted, and the oracle is the same for all strata: it needs \
              --part grover or counting"
@@ -252,7 +257,7 @@ impl OracleFigures {
     }
 
     fn json(&self) -> Value {
-        let mut gates = cost(self.cost);
+        let mut gates = json::cost(self.cost);
         gates["toffoli_depth"] = json!(self.toffoli_depth);
         json!({
             "includes": PARTS_OF_A_CALL,
@@ -265,14 +270,16 @@ impl OracleFigures {
 /// A circuit to write, with the facts for its summary.
 struct Exported<'a> {
     args: &'a ExportArgs,
-    format: Format,
+    format: ExportFormat,
     scene: &'a ValidScene,
     oracle: &'a OracleFigures,
     export: &'a Export<'a>,
-    counting: &'a Counting<'a>,
-    plan: Option<&'a Figures>,
+    counting: &'a CountingCircuit<'a>,
+    plan: Option<&'a PlanFigures>,
     window: Window,
     stratum: Option<Stratum>,
+    /// The pixel's counts beside those of real numbers, if they can be had.
+    counts: Option<PixelCounts>,
     file: &'a Path,
 }
 
@@ -283,7 +290,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
 }
 
-fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
+fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
     let file = args
         .output
         .clone()
@@ -303,16 +310,20 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         output.try_writing()?;
     }
     let cancel = interrupt::cancel_on_interrupt()?;
-    let planning = PlanOptions {
-        workers: Workers {
-            cancel: Some(&cancel),
-            ..Workers::default()
-        },
-        ..PlanOptions::default()
+    let workers = Workers {
+        cancel: Some(&cancel),
+        ..Workers::default()
     };
-    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
-    let planned = plan::choose(&loaded.valid, &planning, args.json)?;
-    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
+    let preparation = Preparation {
+        memory: args.scene.memory(),
+        planning: PlanOptions {
+            workers,
+            ..PlanOptions::default()
+        },
+        shows_plan: !args.json,
+    };
+    let prepared = preparation.prepare(&loaded)?;
+    let scene = prepared.scene();
     let written = scene.scene();
     let film = written.film;
     let middle = [film.width / 2, film.height / 2];
@@ -320,9 +331,11 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         place: on_film(args.pixel.unwrap_or(middle), film)?,
         seed: args.seed(),
     };
-    memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Export)?;
-    let inspection = Inspection::of_pixel(scene, args.channel, pixel)
-        .map_err(|error| loaded.report(vec![error.problem()]))?;
+    let inspection = {
+        let alone = prepare::pixel_oracles(&prepared, &loaded, (pixel.place, CircuitWork::Export))?;
+        let inspection = Inspection::of_pixel(&alone, args.channel, pixel);
+        inspection.map_err(|error| prepare::without_circuit(&error, &loaded))?
+    };
     keep_budget(&loaded, &[inspection.oracle_cost()])?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
     let oracle = inspection.oracle.phase(0, pixel.seed, pixel.place);
@@ -334,13 +347,11 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         oracle = fixed(oracle, stratum, path_bits, bits).map_err(|error| failed(&error))?;
     }
     let asked = written.counting;
-    let (phase_bits, window) = (
-        asked.phase_bits,
-        asked.estimator.register_window(asked.window),
-    );
-    let counting = Counting::with(&oracle, phase_bits, window, Conjunction::Toffolis);
+    let (phase_bits, window) = (asked.phase_bits, asked.register_window());
+    let counting = CountingCircuit::with(&oracle, phase_bits, window, Conjunction::Toffolis);
     let counting = counting.map_err(|error| failed(&error))?;
     let parts = inspection.oracle.index_parts();
+    let counts = pixel_counts(scene, &inspection.oracle, pixel)?;
     let figures = OracleFigures::from_inspection(&inspection);
     // The phase oracle has its own program, so the inspection can be freed.
     drop(inspection);
@@ -361,9 +372,10 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         oracle: &figures,
         export: &export,
         counting: &counting,
-        plan: planned.as_ref().map(|plan| &plan.figures),
+        plan: prepared.plan(),
         window,
         stratum,
+        counts,
         file: &file,
     };
     let tally = match &output {
@@ -387,14 +399,14 @@ fn circuit(args: &ExportArgs, format: Format) -> Result<(), Failure> {
 /// Refuses to write more gates than `--max-gates`.
 fn allow(
     args: &ExportArgs,
-    counting: &Counting<'_>,
+    counting: &CountingCircuit<'_>,
     window: Window,
     gates: u64,
 ) -> Result<(), Failure> {
     if gates <= args.max_gates() {
         return Ok(());
     }
-    let shorter = if args.part() == Part::Counting {
+    let shorter = if args.part() == CircuitPart::Counting {
         match longest(counting, window, args.max_gates()) {
             None => format!(
                 "; one iterate alone has {}",
@@ -414,11 +426,11 @@ fn allow(
 }
 
 /// Returns the most phase bits for which a counting circuit has no more than `gates` gates.
-fn longest(counting: &Counting<'_>, window: Window, gates: u64) -> Option<u32> {
+fn longest(counting: &CountingCircuit<'_>, window: Window, gates: u64) -> Option<u32> {
     let oracle = counting.iterate().oracle();
     let fits = |bits: &u32| {
-        Counting::with(oracle, *bits, window, Conjunction::Toffolis)
-            .is_ok_and(|shorter| shorter.gates(Part::Counting) <= gates)
+        CountingCircuit::with(oracle, *bits, window, Conjunction::Toffolis)
+            .is_ok_and(|shorter| shorter.gates(CircuitPart::Counting) <= gates)
     };
     (1..=counting.phase_register().len() as u32)
         .rev()
@@ -436,11 +448,11 @@ fn size(bytes: u64) -> String {
 }
 
 impl Exported<'_> {
-    fn write(&self, out: &mut impl Write) -> Result<Tally, ExportError> {
+    fn write(&self, out: &mut impl Write) -> Result<ExportCounts, ExportError> {
         self.export.write(self.format, &self.comments(), out)
     }
 
-    fn to_file(&self, output: &Output) -> Result<Option<Tally>, Failure> {
+    fn to_file(&self, output: &Output) -> Result<Option<ExportCounts>, Failure> {
         let mut tally = None;
         let written = replace_file(output.path()?, |out| {
             tally = Some(self.write(out)?);
@@ -454,7 +466,7 @@ impl Exported<'_> {
     }
 
     /// Writes to standard output; `None` if the reader closed the pipe.
-    fn to_stdout(&self) -> Result<Option<Tally>, Failure> {
+    fn to_stdout(&self) -> Result<Option<ExportCounts>, Failure> {
         match self.write(&mut BufWriter::new(io::stdout().lock())) {
             Ok(tally) => Ok(Some(tally)),
             Err(ExportError::Io(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(None),
@@ -476,7 +488,8 @@ impl Exported<'_> {
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
         lines.push(format!("One call of the oracle has {}.", self.oracle.call));
         lines.extend(beside_oracle(part).map(str::to_owned));
-        lines.push("The pixel's parameters are built in as X gates.".to_owned());
+        lines.push("The pixel's position and shifts are built in.".to_owned());
+        lines.extend(self.counts.map(|counts| format!("{}.", counts.in_words())));
         if let (Some((number, strata)), Some(stratum)) = (self.args.stratum, self.stratum) {
             let Range { start, end } = stratum.thresholds();
             lines.push(format!(
@@ -487,7 +500,7 @@ impl Exported<'_> {
         lines
     }
 
-    fn summary(&self, tally: &Tally) -> String {
+    fn summary(&self, tally: &ExportCounts) -> String {
         let file = match self.file.to_str() {
             Some("-") => "standard output".into(),
             _ => self.file.to_string_lossy(),
@@ -501,14 +514,19 @@ impl Exported<'_> {
             size(tally.bytes),
             self.oracle.call
         );
-        if let Some(more) = beside_oracle(part) {
-            text.push_str(more);
+        let values = self.counts.map(|counts| counts.in_words());
+        let lines = beside_oracle(part)
+            .map(str::to_owned)
+            .into_iter()
+            .chain(values);
+        for line in lines {
+            text.push_str(&line);
             text.push('\n');
         }
         text
     }
 
-    fn json(&self, tally: &Tally) -> Value {
+    fn json(&self, tally: &ExportCounts) -> Value {
         let registers = self.export.registers().iter();
         let registers: Vec<Value> = registers
             .map(|register| json!({ "name": register.name, "width": register.qubits.len() }))
@@ -517,7 +535,7 @@ impl Exported<'_> {
         let gates: Map<String, Value> = gates
             .map(|(name, gates)| ((*name).to_owned(), json!(gates)))
             .collect();
-        let counting = self.args.part() == Part::Counting;
+        let counting = self.args.part() == CircuitPart::Counting;
         json!({
             "version": 1,
             "qrt": env!("CARGO_PKG_VERSION"),
@@ -542,7 +560,8 @@ impl Exported<'_> {
             "qubits": tally.qubits,
             "gates": gates,
             "bytes": tally.bytes,
-            "plan": self.plan.map(plan::json),
+            "counts": self.counts.map(json::pixel_counts),
+            "plan": self.plan.map(json::plan),
         })
     }
 }

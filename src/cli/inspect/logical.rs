@@ -1,12 +1,13 @@
 //! `qrt inspect --logical-counts`: the input of estimators of physical resources, for a picture.
 
 use crate::cli::failure::Failure;
+use crate::cli::prepare::without_circuit;
 use qrt_circuit::quantum::LogicalCounts;
 use qrt_core::inspect::Inspection;
-use qrt_runtime::physical::{Counts, PhysicalError, PictureCounts};
-use qrt_runtime::plan::Figures;
+use qrt_core::oracle::Oracles;
+use qrt_lab::physical::{Counts, PhysicalError, PictureCounts};
+use qrt_runtime::plan::PlanFigures;
 use qrt_scene::front::Loaded;
-use qrt_scene::valid::ValidScene;
 use serde_json::{Map, Value, json};
 
 /// Returns the logical counts of a call of the oracle, of a pixel's run of the inspected channel, of a
@@ -16,20 +17,21 @@ use serde_json::{Map, Value, json};
 /// Same as [`PictureCounts::for_scene`].
 pub(super) fn json(
     loaded: &Loaded,
-    scene: &ValidScene,
+    oracles: &Oracles<'_>,
     inspection: &Inspection,
-    plan: Option<&Figures>,
+    plan: Option<&PlanFigures>,
 ) -> Result<Value, Failure> {
     let planned = plan.map(|figures| figures.channel_queries);
-    let picture = PictureCounts::for_scene(scene, inspection.name.class, planned).map_err(
-        |error| match error {
-            PhysicalError::Oracle(error) => loaded.report(vec![error.problem()]).into(),
-            PhysicalError::Estimator(_) | PhysicalError::TooMany => {
-                Failure::Usage(error.to_string())
-            }
-            other => Failure::Job(other.to_string()),
-        },
-    )?;
+    let picture =
+        PictureCounts::for_scene(oracles, inspection.name, planned).map_err(
+            |error| match error {
+                PhysicalError::Oracle(error) => without_circuit(&error, loaded),
+                PhysicalError::Estimator(_) | PhysicalError::TooMany => {
+                    Failure::Usage(error.to_string())
+                }
+                other => Failure::Job(other.to_string()),
+            },
+        )?;
     let one = picture.channels[inspection.name.channel];
     let of = |kind: fn(&Counts) -> LogicalCounts| {
         let parts = [
@@ -41,6 +43,7 @@ pub(super) fn json(
         let parts = parts.map(|(name, counts)| (name.to_owned(), for_qsharp(kind(&counts))));
         Map::from_iter(parts)
     };
+    let scene = oracles.scene();
     let written = scene.scene();
     let counting = written.counting;
     let film = picture.queries.saturating_mul(picture.pixels);
@@ -57,7 +60,7 @@ pub(super) fn json(
         "repetitions": counting.repetitions,
         "pixels": picture.pixels,
         "queries": { "channel": one.queries, "pixel": picture.queries, "film": film },
-        "plan": plan.map(crate::cli::plan::json),
+        "plan": plan.map(qrt_lab::json::plan),
         "assumed": {
             "queries": if plan.is_some() && !counting.estimator.has_register() {
                 "as many as are planned of a pixel on average"

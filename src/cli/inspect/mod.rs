@@ -1,6 +1,5 @@
 //! `qrt inspect`: shows the cost of a scene's oracle, and its parts.
 
-mod json;
 mod logical;
 mod pareto;
 mod text;
@@ -8,19 +7,20 @@ mod text;
 use super::args::{SceneArgs, ThreadsArgs, choice, on_film, pixel};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
-use super::memory;
+use super::prepare::{self, Preparation};
 use super::progress::Bar;
 use super::terminal;
 use clap::Args;
-use qrt_core::inspect::{CHANNELS, Frame, Inspection, OraclePixel, PassFigures};
-use qrt_core::oracle::{OracleCost, OracleError, check_budget, oracle_costs};
-use qrt_core::tracer::PixelClass;
-use qrt_runtime::draw;
+use qrt_core::inspect::{CHANNELS, CallDiagram, OraclePixel};
+use qrt_core::oracle::{OracleCost, check_budget};
+use qrt_lab::draw;
+use qrt_lab::inspect::InspectFigures;
+use qrt_lab::json;
+use qrt_lab::verify::VerifyError;
 use qrt_runtime::memory::CircuitWork;
-use qrt_runtime::plan::{Figures, Options as PlanOptions, plan};
+use qrt_runtime::plan::PlanOptions;
 use qrt_runtime::replace_file::replace_file;
 use qrt_scene::front::Loaded;
-use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -89,24 +89,11 @@ pub(crate) struct InspectArgs {
     scene: SceneArgs,
 }
 
-pub(super) use json::{cost, oracle_cost};
-
 pub(super) const CHANNEL_CHOICES: [(usize, &str); 3] = [(0, "Red"), (1, "Green"), (2, "Blue")];
 
 /// Returns the name of a channel: `r`, `g` or `b`.
 pub(super) fn channel_name(channel: usize) -> &'static str {
     CHANNELS[channel]
-}
-
-/// The figures that `qrt inspect` shows.
-struct Shown<'a> {
-    scene: &'a ValidScene,
-    inspection: &'a Inspection,
-    /// All oracles of the scene.
-    costs: &'a [OracleCost],
-    channel_is_asked: bool,
-    passes: &'a [PassFigures],
-    plan: Option<&'a Figures>,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
@@ -127,18 +114,29 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let loaded = args.scene.load()?;
     keep_apart(loaded.valid.files().iter().map(PathBuf::as_path), &outputs)?;
     outputs.iter().try_for_each(|output| output.try_writing())?;
-    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
-    let planned = plan(&loaded.valid, &PlanOptions::default())?;
-    let scene = planned.as_ref().map_or(&loaded.valid, |plan| &plan.scene);
-    let refused = |error: OracleError| loaded.report(vec![error.problem()]);
+    let preparation = Preparation {
+        memory: args.scene.memory(),
+        planning: PlanOptions::default(),
+        shows_plan: false,
+    };
+    let prepared = preparation.prepare(&loaded)?;
+    let scene = prepared.scene();
     let pixel = args.pixel.map(|pixel| on_film(pixel, scene.scene().film));
     let pixel = pixel.transpose()?.map(|place| OraclePixel {
         place,
         seed: args.seed.unwrap_or(0),
     });
-    memory::keep_circuit(args.scene.memory(), scene, CircuitWork::Program)?;
+    let shown = pixel.map_or([0, 0], |pixel| pixel.place);
+    prepare::compile(&prepared, &loaded, (shown, CircuitWork::Program))?;
+    let oracles = prepared.oracles();
     let front = if args.pareto {
-        Some(pareto::report(args, pixel, &loaded, scene, front.as_ref())?)
+        Some(pareto::report(
+            args,
+            pixel,
+            &loaded,
+            oracles,
+            front.as_ref(),
+        )?)
     } else {
         None
     };
@@ -149,85 +147,48 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         return terminal::print(front);
     }
     let bar = Bar::setting_up();
-    let inspected = inspect(scene, args.channel, pixel);
+    let figures = InspectFigures::new(&prepared, args.channel, pixel);
     bar.clear();
-    let (mut costs, inspection, passes) = inspected.map_err(refused)?;
+    let figures = figures.map_err(|error| match error {
+        VerifyError::Oracle(error) => prepare::without_circuit(&error, &loaded),
+        error => error.into(),
+    })?;
+    let inspection = &figures.inspection;
 
     let name = &scene.scene().name;
     if let Some(file) = &registers {
-        write(file, &draw::registers(&inspection, name).svg())?;
+        write(file, &draw::registers(inspection, name).svg())?;
     }
     if let Some(file) = &circuit {
-        write(file, &draw::frame(&inspection, name).svg())?;
+        write(file, &draw::frame(inspection, name).svg())?;
     }
-    let plan = planned.as_ref().map(|plan| &plan.figures);
     if let Some(file) = &counts {
-        let counts = logical::json(&loaded, scene, &inspection, plan)?;
+        let counts = logical::json(&loaded, oracles, inspection, figures.plan)?;
         write(file, &format!("{counts:#}\n"))?;
     }
-    let shown = Shown {
-        scene,
-        inspection: &inspection,
-        costs: &costs,
-        channel_is_asked: args.channel.is_some(),
-        passes: &passes,
-        plan,
-    };
     let is_front = front.is_some();
     let mut out = if let Some(front) = front {
         front
     } else if args.json {
-        format!("{:#}\n", json::json(&shown))
+        format!("{:#}\n", json::inspect(&figures))
     } else {
-        text::text(&shown, args.planes)
+        text::text(&figures, args.channel.is_some(), args.planes)
     };
     if in_terminal {
         out.push('\n');
-        out.push_str(&draw::frame_text(&Frame::new(&inspection)));
+        out.push_str(&draw::frame_text(&CallDiagram::new(inspection)));
     }
     terminal::print(&out)?;
     if is_front {
         // A budget applies to one strategy, the scene's.
         return Ok(());
     }
-    let class = pixel.map(|_| inspection.name.class);
-    costs.retain(|cost| is_asked(cost, args.channel, class));
-    keep_budget(&loaded, &costs)
-}
-
-/// True if an oracle has the given `channel` and the given `class` of pixels; `None` matches all.
-fn is_asked(cost: &OracleCost, channel: Option<usize>, class: Option<PixelClass>) -> bool {
-    channel.is_none_or(|one| one == cost.name.channel)
-        && class.is_none_or(|class| class == cost.name.class)
-}
-
-/// Compiles the costs of all oracles, the selected oracle, and the figures of each compiler pass of that
-/// oracle.
-fn inspect(
-    scene: &ValidScene,
-    channel: Option<usize>,
-    pixel: Option<OraclePixel>,
-) -> Result<(Vec<OracleCost>, Inspection, Vec<PassFigures>), OracleError> {
-    let costs = oracle_costs(scene)?;
-    let inspection = match pixel {
-        Some(pixel) => Inspection::of_pixel(scene, channel, pixel),
-        None => Inspection::most_expensive_of(scene, &costs, channel),
-    }?;
-    let passes = inspection.passes(scene)?;
-    Ok((costs, inspection, passes))
-}
-
-/// Checks that `scene` has a circuit within its budget, if it has a budget.
-///
-/// # Errors
-/// The problem, at its place in the scene.
-pub(super) fn check_circuit(loaded: &Loaded, scene: &ValidScene) -> Result<(), Failure> {
-    if scene.scene().budget.is_none() {
-        return Ok(());
+    if pixel.is_some() {
+        return keep_budget(&loaded, &[inspection.oracle_cost()]);
     }
-    let costs = oracle_costs(scene);
-    let costs = costs.map_err(|error| loaded.report(vec![error.problem()]))?;
-    keep_budget(loaded, &costs)
+    let mut costs = figures.costs;
+    costs.retain(|cost| args.channel.is_none_or(|one| one == cost.name.channel));
+    keep_budget(&loaded, &costs)
 }
 
 /// Checks that one call of each of the oracles in `costs` is within the scene's budget.

@@ -1,19 +1,18 @@
 //! `qrt inspect --pareto`: the front of qubits against gates.
 
-use super::{InspectArgs, is_asked, write};
+use super::{InspectArgs, write};
 use crate::cli::failure::Failure;
 use crate::cli::files::Output;
 use crate::cli::interrupt;
+use crate::cli::prepare::without_circuit;
 use crate::cli::progress::Bar;
 use qrt_core::compile::Strategy;
 use qrt_core::inspect::{OraclePixel, grouped};
-use qrt_core::oracle::{Layout, OracleCost, OracleName, oracle_costs_under};
-use qrt_core::tracer::PixelClasses;
-use qrt_runtime::layouts::{LayoutsError, drawing, front};
+use qrt_core::oracle::{OracleName, Oracles, StrategyCost};
+use qrt_lab::json;
+use qrt_lab::layouts::{LayoutsError, drawing, front_of_most_expensive};
 use qrt_runtime::workers::Workers;
 use qrt_scene::front::Loaded;
-use qrt_scene::valid::ValidScene;
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Returns the front as text or JSON; writes its drawing to `plot`.
@@ -21,17 +20,12 @@ pub(super) fn report(
     args: &InspectArgs,
     pixel: Option<OraclePixel>,
     loaded: &Loaded,
-    scene: &ValidScene,
+    oracles: &Oracles<'_>,
     plot: Option<&Output>,
 ) -> Result<String, Failure> {
-    let refused = |error: qrt_core::oracle::OracleError| loaded.report(vec![error.problem()]);
-    let costs = oracle_costs_under(scene, Strategy::KEEP).map_err(refused)?;
-    let class = pixel.map(|pixel| PixelClasses::new(scene).class(pixel.place));
-    let asked = costs.into_iter();
-    let asked = asked.filter(|cost| is_asked(cost, args.channel, class));
-    let Some(OracleCost { name: oracle, .. }) = OracleCost::most_expensive(asked) else {
-        return Err(Failure::Job("no pixel has an oracle".to_owned()));
-    };
+    // A pixel's own oracles have its position built in.
+    let alone = pixel.map(|pixel| oracles.of_pixel(pixel.place));
+    let oracles = alone.as_ref().unwrap_or(oracles);
     let cancel = interrupt::cancel_on_interrupt()?;
     let bar = Bar::settings(!args.json);
     let show = |progress| bar.show(progress);
@@ -40,27 +34,36 @@ pub(super) fn report(
         cancel: Some(&cancel),
         progress: Some(&show),
     };
-    let found = front(scene, oracle.channel, oracle.class, &workers);
+    let found = front_of_most_expensive(oracles, args.channel, &workers);
     bar.clear();
-    let front = found.map_err(|error| match error {
-        LayoutsError::Oracle(error) => refused(error).into(),
+    let (oracle, front) = found.map_err(|error| match error {
+        LayoutsError::Oracle(error) => without_circuit(&error, loaded),
         other => Failure::Job(other.to_string()),
     })?;
-    let name = &scene.scene().name;
+    let name = &oracles.scene().scene().name;
     if let Some(file) = plot {
         write(file, &drawing(&front, name).svg())?;
     }
     let out = if args.json {
-        format!("{:#}\n", to_json(name, oracle, &front))
+        format!("{:#}\n", json::pareto(name, oracle, pixel, &front))
     } else {
-        text(name, oracle, &front)
+        text(name, oracle, pixel, &front)
     };
     Ok(out)
 }
 
-fn text(name: &str, oracle: OracleName, front: &[Layout]) -> String {
+fn text(
+    name: &str,
+    oracle: OracleName,
+    pixel: Option<OraclePixel>,
+    front: &[StrategyCost],
+) -> String {
+    let which = match pixel {
+        Some(pixel) => pixel.which(oracle),
+        None => oracle.to_string(),
+    };
     let mut out = format!(
-        "{name}, {oracle}: one oracle call under {} strategies; those that no other beats\n\n",
+        "{name}, {which}: one oracle call under {} strategies; those that no other beats\n\n",
         Strategy::all().len()
     );
     let _ = writeln!(
@@ -85,22 +88,4 @@ fn text(name: &str, oracle: OracleName, front: &[Layout]) -> String {
          `--set circuit.uncompute=NAME` takes any of these names.\n",
     );
     out
-}
-
-fn to_json(name: &str, oracle: OracleName, front: &[Layout]) -> Value {
-    let layouts = front.iter().map(|layout| {
-        json!({
-            "qubits": layout.cost.qubits,
-            "toffoli": layout.cost.toffoli,
-            "and_measured": layout.and_measured,
-            "estimated_and_with_ghosts": layout.and_with_ghosts,
-            "strategy": layout.strategy.to_string(),
-        })
-    });
-    json!({
-        "scene": name,
-        "channel": oracle.channel_name(),
-        "class": oracle.class_name(),
-        "front": layouts.collect::<Vec<_>>(),
-    })
 }

@@ -1,11 +1,11 @@
 //! Prints the figures of `qrt inspect` for people, within 100 columns.
 
-use super::Shown;
 use qrt_circuit::lower::Cost;
 use qrt_core::compile::Role;
-use qrt_core::inspect::{BlockFigures, Inspection, Part, Stage, grouped};
+use qrt_core::inspect::{BlockFigures, CallPart, CallStage, Inspection, grouped};
 use qrt_core::oracle::PARTS_OF_A_CALL;
-use qrt_scene::Uncompute;
+use qrt_lab::inspect::InspectFigures;
+use qrt_scene::{Uncompute, Window};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -14,28 +14,29 @@ const NAME: usize = 28;
 /// The width in columns of an oracle's name.
 const NAMES: usize = 40;
 
-/// Returns the figures as text; with `planes`, each plane of each search.
-pub(super) fn text(shown: &Shown<'_>, planes: bool) -> String {
+/// Returns the figures as text; with `planes`, each plane of each search. `channel_is_asked` says that the
+/// channel was on the command line.
+pub(super) fn text(shown: &InspectFigures<'_>, channel_is_asked: bool, planes: bool) -> String {
     let mut out = String::new();
     if let Some(plan) = shown.plan {
         let _ = writeln!(out, "{plan}");
     }
-    headline(&mut out, shown);
+    headline(&mut out, shown, channel_is_asked);
     out.push('\n');
     oracles(&mut out, shown);
     out.push('\n');
-    costs(&mut out, shown.inspection, planes);
+    costs(&mut out, &shown.inspection, planes);
     out.push('\n');
     passes(&mut out, shown);
     out.push('\n');
-    registers(&mut out, shown.inspection);
+    registers(&mut out, &shown.inspection);
     out.lines()
         .flat_map(|line| [line.trim_end(), "\n"])
         .collect()
 }
 
-fn headline(out: &mut String, shown: &Shown<'_>) {
-    let Shown {
+fn headline(out: &mut String, shown: &InspectFigures<'_>, channel_is_asked: bool) {
+    let InspectFigures {
         scene, inspection, ..
     } = shown;
     let written = scene.scene();
@@ -50,7 +51,12 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
         "{}: one call of the oracle, O_f = {PARTS_OF_A_CALL}",
         name(&written.name),
     );
-    let _ = writeln!(out, "{}{}", inspection.which(), why_shown(shown));
+    let _ = writeln!(
+        out,
+        "{}{}",
+        inspection.which(),
+        why_shown(shown, channel_is_asked)
+    );
     let _ = writeln!(
         out,
         "{} path bits, {}, {} comparator bits, {} fraction bits, uncompute {undone}, nearest {}\n",
@@ -76,17 +82,47 @@ fn headline(out: &mut String, shown: &Shown<'_>) {
     for (number, what) in figures {
         let _ = writeln!(out, "{number:>width$} {what}");
     }
+    if inspection.pixel.is_some() {
+        out.push('\n');
+        complete(out, inspection, written.counting.register_window());
+    }
+    if let Some(counts) = shown.counts {
+        let _ = writeln!(out, "{}", counts.in_words());
+    }
+}
+
+/// Writes what of a pixel's circuit is a table of path bits, and how many qubits the complete counting
+/// circuit takes.
+fn complete(out: &mut String, inspection: &Inspection, window: Window) {
+    let tables = inspection.toffolis_of_tables();
+    let all = inspection.total().toffoli;
+    let share = 100.0 * tables as f64 / all.max(1) as f64;
+    let _ = writeln!(
+        out,
+        "{} of the {} Toffolis look up tables of path bits ({share:.0} %)",
+        grouped(tables),
+        grouped(all)
+    );
+    let qubits = [2, 3, 4, 6, 8].map(|bits| {
+        let qubits = u64::from(inspection.complete_qubits(bits, window));
+        format!("{} at t = {bits}", grouped(qubits))
+    });
+    let _ = writeln!(
+        out,
+        "qubits with all of counting, for t phase bits: {}",
+        qubits.join(", ")
+    );
 }
 
 /// Returns the reason that this oracle is shown.
-fn why_shown(shown: &Shown<'_>) -> String {
-    let Shown {
+fn why_shown(shown: &InspectFigures<'_>, channel_is_asked: bool) -> String {
+    let InspectFigures {
         inspection, costs, ..
     } = shown;
     if let Some(pixel) = inspection.pixel {
         return format!(", seed {}: as `qrt export` writes it", pixel.seed);
     }
-    if shown.channel_is_asked {
+    if channel_is_asked {
         let name = inspection.name;
         let rivals = costs
             .iter()
@@ -101,8 +137,8 @@ fn why_shown(shown: &Shown<'_>) -> String {
 }
 
 /// Writes the table of all oracles of the scene.
-fn oracles(out: &mut String, shown: &Shown<'_>) {
-    let Shown {
+fn oracles(out: &mut String, shown: &InspectFigures<'_>) {
+    let InspectFigures {
         inspection, costs, ..
     } = shown;
     let _ = writeln!(
@@ -110,8 +146,9 @@ fn oracles(out: &mut String, shown: &Shown<'_>) {
         "{:<NAMES$}{:>14}{:>15}",
         "oracles of the scene", "Toffoli", "qubits"
     );
-    for cost in *costs {
-        let mark = if cost.name == inspection.name {
+    for cost in costs {
+        // The oracle of a pixel alone is none of them.
+        let mark = if cost.name == inspection.name && inspection.pixel.is_none() {
             '*'
         } else {
             ' '
@@ -162,16 +199,18 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
         "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>12}{:>11}",
         "", "Toffoli", "%", "measured AND", "CNOT", "X", "qubits"
     );
-    let part = |out: &mut String, part: Part| {
+    let part = |out: &mut String, part: CallPart| {
         let qubits = inspection.peak(inspection.instructions(part));
         let cost = inspection.part(part);
         row(out, "", part.name(), cost, all, Some(qubits));
     };
-    part(out, Part::Compute);
+    part(out, CallPart::Compute);
     let blocks = inspection.blocks();
     let stages = inspection.stages();
-    let stages = stages.iter().filter(|stage| stage.part == Part::Compute);
-    let mut depths: Vec<(Option<u32>, Vec<&Stage>)> = Vec::new();
+    let stages = stages
+        .iter()
+        .filter(|stage| stage.part == CallPart::Compute);
+    let mut depths: Vec<(Option<u32>, Vec<&CallStage>)> = Vec::new();
     for stage in stages {
         match depths.last_mut() {
             Some((depth, stages)) if *depth == stage.depth => stages.push(stage),
@@ -217,8 +256,8 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
             }
         }
     }
-    part(out, Part::Flip);
-    part(out, Part::Uncompute);
+    part(out, CallPart::Flip);
+    part(out, CallPart::Uncompute);
     let total = inspection.total();
     row(out, "", "O_f", total, all, Some(inspection.qubits));
 }
@@ -237,7 +276,7 @@ fn branches(last: bool) -> (&'static str, &'static str) {
 fn within(
     out: &mut String,
     below: &str,
-    stage: &Stage,
+    stage: &CallStage,
     blocks: &[BlockFigures],
     all: u64,
     each: bool,
@@ -287,7 +326,7 @@ fn within(
     }
 }
 
-fn passes(out: &mut String, shown: &Shown<'_>) {
+fn passes(out: &mut String, shown: &InspectFigures<'_>) {
     let _ = writeln!(
         out,
         "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>20}",
@@ -295,7 +334,7 @@ fn passes(out: &mut String, shown: &Shown<'_>) {
     );
     let all = shown.passes.first().map_or(0, |first| first.toffoli);
     let mut before = all;
-    for pass in shown.passes {
+    for pass in &shown.passes {
         let percent = match all {
             0 => String::new(),
             _ => format!("{:.1}", 100.0 * pass.toffoli as f64 / all as f64),

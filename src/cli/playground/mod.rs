@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::terminal;
 use clap::Args;
 use http::{Answer, Asked};
-use qrt_runtime::playground::Playground;
+use qrt_lab::playground::Playground;
 use qrt_scene::front::{Files, MAX_BYTES};
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, TcpListener};

@@ -1,31 +1,27 @@
 //! `qrt verify`: checks the three models of a scene against each other.
 
-mod json;
 mod parts;
 
 use super::args::{SceneArgs, ThreadsArgs};
 use super::failure::Failure;
-use super::inspect::check_circuit;
-use super::memory;
 use super::path;
+use super::prepare::{self, Preparation};
 use super::progress::Bar;
-use super::{interrupt, plan, terminal, time};
+use super::{interrupt, terminal, time};
 use clap::Args;
 use qrt_core::inspect::grouped;
 use qrt_core::oracle::OracleCost;
+use qrt_lab::json::{self, VerifyFigures};
+use qrt_lab::verify::{CIRCUIT, Mismatch, VerifyOptions, VerifyReport, verify_prepared};
 use qrt_runtime::memory::CircuitWork;
-use qrt_runtime::plan::Options as PlanOptions;
+use qrt_runtime::plan::PlanOptions;
 use qrt_runtime::render::{Model, Portion, out_of_bounds_advice};
-use qrt_runtime::verify::{Mismatch, Options, Report, verify};
 use qrt_runtime::workers::Workers;
 use qrt_scene::valid::ValidScene;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
-
-/// The circuit that the check runs, in words.
-const CIRCUIT: &str = "all three channels in one: compute, compare and flip for each, uncompute";
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -45,7 +41,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 Examples:
   qrt verify box.yaml                                   16 pixels, all their paths
   qrt verify box.yaml --pixels 1000000                  all pixels
-  qrt verify box.yaml --pixels 1000000 --tile 3/100 --json > 3.json
+  qrt verify box.yaml --pixels 1000000 --portion 3/100 --json > 3.json
                                                         the fourth of a hundred portions of them
   qrt verify box.yaml --pixels 1000000 --parts *.json   all of them, put together
   qrt verify box.yaml --set precision.fraction=20 --json")]
@@ -69,9 +65,9 @@ pub(crate) struct VerifyArgs {
         allow_hyphen_values = true,
         conflicts_with = "parts"
     )]
-    tile: Option<Portion>,
-    /// Check nothing, and put the answers of all portions together: what --tile K/N --json has written
-    /// for every K, of this scene, these pixels and this seed, in any order
+    portion: Option<Portion>,
+    /// Check nothing, and put the answers of all portions together: what --portion K/N --json has
+    /// written for every K, of this scene, these pixels and this seed, in any order
     #[arg(long, value_name = "FILE.json", num_args = 1..)]
     parts: Vec<PathBuf>,
     #[command(flatten)]
@@ -97,47 +93,57 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         cancel: Some(&cancel),
         progress: Some(&show),
     };
-    let planning = PlanOptions {
-        workers,
-        ..PlanOptions::default()
+    let preparation = Preparation {
+        memory: args.scene.memory(),
+        planning: PlanOptions {
+            workers,
+            ..PlanOptions::default()
+        },
+        shows_plan: !args.json,
     };
-    memory::keep_plan(args.scene.memory(), &loaded.valid)?;
-    let planned = plan::choose(&loaded.valid, &planning, args.json)?;
-    let scene = planned.map_or_else(|| loaded.valid.clone(), |plan| plan.scene);
-    if args.parts.is_empty() {
-        let work = CircuitWork::Gates(args.threads.or_cores());
-        memory::keep_circuit(args.scene.memory(), &scene, work)?;
-        check_circuit(&loaded, &scene)?;
-    }
-    let options = Options {
+    let prepared = preparation.prepare(&loaded)?;
+    let scene = prepared.scene();
+    let options = VerifyOptions {
         pixels: args.pixels,
-        portion: args.tile.unwrap_or_default(),
+        portion: args.portion.unwrap_or_default(),
         seed: args.seed,
         workers,
     };
     let found = if args.parts.is_empty() {
+        let work = CircuitWork::gates(args.threads.count());
+        prepare::compile(&prepared, &loaded, ([0, 0], work))?;
+        let checked = prepared.check_budget();
+        checked.map_err(|error| prepare::refused(error, &loaded))?;
         let film = scene.scene().film;
         let pixels = (f64::from(film.width) * f64::from(film.height)).min(args.pixels as f64);
         let pixels = pixels / f64::from(options.portion.count());
-        time::tell_of_paths(&scene, pixels, 1.0, &Model::ALL, args.threads.or_cores());
+        time::tell_of_paths(&prepared, pixels, 1.0, &Model::ALL, args.threads.or_cores());
         let start = Instant::now();
         bar.set_up();
-        let verified = verify(&scene, &options);
+        let verified = verify_prepared(&prepared, &options);
         bar.clear();
         Found::from_report(verified?, start.elapsed().as_secs_f64())
     } else {
-        parts::put_together(&args.parts, &scene, &options)?
+        parts::put_together(&args.parts, scene, &options)?
     };
     let answer = if args.json {
-        format!("{:#}\n", json::answer(args, &scene, &found))
+        let figures = VerifyFigures {
+            scene,
+            seed: args.seed,
+            portion: args.portion,
+            report: &found.report,
+            defect: found.defect.as_ref(),
+            seconds: found.seconds,
+        };
+        format!("{:#}\n", json::verify(&figures))
     } else {
-        text(args, &scene, &found)
+        text(args, scene, &found)
     };
     terminal::print(&answer)?;
     match fault(&found) {
         None => Ok(()),
         Some(fault) => {
-            let advice = advice(&found, &scene, args.seed);
+            let advice = advice(&found, scene, args.seed);
             Err(Failure::Job(format!("{fault}; {advice}")))
         }
     }
@@ -145,7 +151,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
 
 /// The result of a check: its own report, or that of all portions.
 struct Found {
-    report: Report,
+    report: VerifyReport,
     /// Defect of the circuit, in the form of the JSON answer.
     defect: Option<Value>,
     /// Wall time of the check, in seconds; for portions, the sum.
@@ -153,7 +159,7 @@ struct Found {
 }
 
 impl Found {
-    fn from_report(report: Report, seconds: f64) -> Self {
+    fn from_report(report: VerifyReport, seconds: f64) -> Self {
         Self {
             defect: (report.defect.as_ref())
                 .map(|defect| json::defect(defect, report.defect_model)),
@@ -188,7 +194,7 @@ fn advice(found: &Found, scene: &ValidScene, seed: u64) -> String {
     };
     // Gates that exceed a bound which the integers keep are a defect, however coarse the numbers are.
     let fraction = (model == Model::Fixed).then_some(found.report.fraction);
-    let path = path::in_words(scene, (model, seed, pixel, id));
+    let path = path::in_words(scene, model, seed, pixel, id);
     out_of_bounds_advice(fraction) + &path
 }
 

@@ -2,10 +2,10 @@
 
 use super::super::failure::Failure;
 use super::Found;
-use qrt_core::oracle::{CallCost, OracleCost, oracle_names};
+use qrt_core::oracle::{CallCost, OracleCost, OracleName, Oracles};
+use qrt_lab::verify::{Mismatch, VerifyOptions, VerifyReport, pixels};
 use qrt_runtime::disk::read_regular;
 use qrt_runtime::render::Portion;
-use qrt_runtime::verify::{Mismatch, Options, Report, pixels};
 use qrt_scene::valid::ValidScene;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ const NAMED: usize = 16;
 pub(super) fn put_together(
     files: &[PathBuf],
     scene: &ValidScene,
-    options: &Options<'_>,
+    options: &VerifyOptions<'_>,
 ) -> Result<Found, Failure> {
     let mut parts: BTreeMap<u32, (&Path, Found)> = BTreeMap::new();
     let mut first: Option<(&Path, Portion)> = None;
@@ -61,7 +61,7 @@ pub(super) fn put_together(
         seconds += found.seconds;
         found.report
     });
-    let report = Report::pooled(reports);
+    let report = VerifyReport::pooled(reports);
     Ok(Found {
         report,
         defect,
@@ -74,18 +74,19 @@ fn part(
     file: &Path,
     bytes: &[u8],
     scene: &ValidScene,
-    options: &Options<'_>,
+    options: &VerifyOptions<'_>,
 ) -> Result<(Portion, Found), Failure> {
     let none = || {
-        let words = "is no answer of `qrt verify --tile K/N --json`, or of another version of qrt";
+        let words =
+            "is no answer of `qrt verify --portion K/N --json`, or of another version of qrt";
         Failure::Usage(format!("`{}` {words}", file.display()))
     };
     let answer: Value = serde_json::from_slice(bytes).map_err(|_| none())?;
     if answer["version"] != 1 || answer["qrt"] != env!("CARGO_PKG_VERSION") {
         return Err(none());
     }
-    let tile = pixel(&answer["tile"]).ok_or_else(none)?;
-    let portion = Portion::new(tile[0], tile[1]).map_err(|_| none())?;
+    let [index, count] = pixel(&answer["portion"]).ok_or_else(none)?;
+    let portion = Portion::new(index, count).map_err(|_| none())?;
     let found = found(&answer, scene).ok_or_else(none)?;
     let differs = |what: &str| {
         let file = file.display();
@@ -99,7 +100,7 @@ fn part(
     }
     let mut asked = pixels(
         scene,
-        &Options {
+        &VerifyOptions {
             portion,
             ..*options
         },
@@ -126,12 +127,13 @@ fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
             Some([0.0; 3])
         }
     };
+    let names = Oracles::new(scene).names();
     let errors = &answer["width_error"];
-    let report = Report {
+    let report = VerifyReport {
         pixels: pixels.collect::<Option<_>>()?,
         paths: answer["paths"].as_u64()?,
         oracles: (answer["oracles"].as_array()?.iter())
-            .map(|oracle| oracle_cost(oracle, scene))
+            .map(|oracle| oracle_cost(oracle, &names))
             .collect::<Option<_>>()?,
         qubits: answer["qubits"].as_u64()?.try_into().ok()?,
         gates: answer["gates"].as_u64()?.try_into().ok()?,
@@ -156,9 +158,9 @@ fn found(answer: &Value, scene: &ValidScene) -> Option<Found> {
     })
 }
 
-/// Parses one of the scene's oracles and its cost.
-fn oracle_cost(value: &Value, scene: &ValidScene) -> Option<OracleCost> {
-    let mut names = oracle_names(scene).into_iter();
+/// Parses one of the scene's oracles `names` and its cost.
+fn oracle_cost(value: &Value, names: &[OracleName]) -> Option<OracleCost> {
+    let mut names = names.iter();
     let name = names.find(|name| {
         value["channel"] == name.channel_name() && value["class"] == name.class_name()
     })?;
@@ -166,7 +168,7 @@ fn oracle_cost(value: &Value, scene: &ValidScene) -> Option<OracleCost> {
         qubits: value["qubits"].as_u64()?,
         toffoli: value["toffoli"].as_u64()?,
     };
-    Some(OracleCost { name, call })
+    Some(OracleCost { name: *name, call })
 }
 
 fn mismatch(value: &Value) -> Option<Mismatch> {

@@ -1,13 +1,20 @@
 //! An example of each block of a scene.
 
 /// Blocks and examples of them; `book_listings` checks that each is a part of a scene.
-pub(crate) const EXAMPLES: [(&str, &str); 12] = [
+pub(crate) const EXAMPLES: [(&str, &str); 13] = [
     ("name", "name: first-scene\n"),
     (
         "camera",
-        "camera:\n  perspective: { eye: [0, 1, 4], target: [0, 1, 0], vfov: 40 }\n",
+        "\
+camera:
+  perspective: { eye: [0, 1, 4], target: [0, 1, 0], vfov: 40, lens: { aperture: 0.1, focus: 4 } }
+",
     ),
     ("film", "film: { width: 64, height: 48 }\n"),
+    (
+        "sky",
+        "sky: { horizon: [1, 1, 1], zenith: [0.5, 0.7, 1] }\n",
+    ),
     (
         "materials",
         "\
@@ -32,6 +39,7 @@ geometry:
       vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]]
       material: white
   - triangle: { vertices: [[0, 1, 0], [1, 1, 0], [0, 2, 0]], material: lamp }
+  - sphere: { center: [0, 1, 0], radius: 1, material: white }
   - mesh: { obj: meshes/knot.obj, material: white, scale: 0.5, translate: [0, 1, 0] }
 ",
     ),
@@ -57,8 +65,9 @@ sampling:
 ];
 
 /// Chapters that explain a block further.
-pub(crate) const CHAPTERS: [(&str, &str, &str); 9] = [
+pub(crate) const CHAPTERS: [(&str, &str, &str); 10] = [
     ("camera", "Rays in superposition", "superposition.md"),
+    ("sky", "Spheres, a sky and a lens", "spheres.md"),
     ("materials", "Shading and materials", "shading.md"),
     ("geometry", "Find intersection", "intersection.md"),
     ("sampling", "Dense sampling", "sampling.md"),

@@ -18,7 +18,8 @@ in [Scenes in YAML](yaml.md), and each error in [Error codes](error-codes.md).
   value is ever clamped: what is out of range is an error.
 - A *point* is a list of three numbers `[x, y, z]` in *scene units*: any unit of length you like,
   the same throughout. Axes are right-handed.
-- A *colour* is a list of three numbers `[red, green, blue]`, linear, with the primaries of sRGB.
+- A *colour* is a list of three numbers `[red, green, blue]`, linear, with the primaries of sRGB;
+  one number stands for three equal ones.
 - An *expression* is a formula in quotes, such as `\"sqrt(1 - u^2)\"`, or a number.
 - One *of several kinds* is a map with a single key, as in `{ mirror: { ... } }`.
 - Lengths and points are in scene units, angles in degrees, and sizes of registers in bits.
@@ -168,6 +169,9 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
             .filter(|item| item.get("properties").is_some())
         {
             keys(page, &path, item, &inner);
+        }
+        if part.get("properties").is_some() {
+            keys(page, &path, part, &inner);
         }
     }
 }

@@ -93,6 +93,9 @@ pub(crate) fn kind(schema: &Value) -> String {
             [words, other] if words.get("enum").is_some() && other.get("pattern").is_some() => {
                 "one of the words below, or parts with hyphens between them".to_owned()
             }
+            [colour, grey] if is_type(colour, "array") && is_type(grey, "number") => {
+                format!("{}; or one number, which is grey", kind(colour))
+            }
             [one, _, _] if is_expression(one) && lists == 2 => {
                 "expression, or a list of one or three".to_owned()
             }

@@ -1,9 +1,9 @@
 //! Reports of real faults, one for each code.
 
 use qrt::core::compile::BuildError;
-use qrt::core::oracle::{MOST_FACES, OracleError, check_budget, oracle_costs};
-use qrt::runtime::mitsuba;
-use qrt::scene::front::{Files, Loaded, obj, parse, parse_with};
+use qrt::core::oracle::{MOST_FACES, NearestOracle, OracleError, Oracles, check_budget};
+use qrt::lab::mitsuba;
+use qrt::scene::front::{Files, Loaded, meshes, parse, parse_with};
 use qrt::scene::meshes::Meshes;
 use qrt::scene::syntax::{Problem, Report};
 use qrt::scene::valid::{bsdf, validate};
@@ -106,7 +106,7 @@ fn elsewhere() -> Vec<String> {
     let mut texts = Vec::new();
 
     let tight = wall("budget: { qubits: 100, toffoli: 1000 }");
-    let costs = oracle_costs(&tight.valid).unwrap();
+    let costs = Oracles::new(&tight.valid).costs().unwrap();
     let over = check_budget(&tight.valid, &costs).unwrap_err();
     texts.push(tell(&tight, over));
 
@@ -126,6 +126,22 @@ fn elsewhere() -> Vec<String> {
     ] {
         texts.push(tell(&fine, vec![error.problem()]));
     }
+
+    let ground = "\
+name: ground
+camera: { perspective: { eye: [0, 1, 4], target: [0, 0.1, 0], vfov: 45 } }
+film: { width: 1, height: 1 }
+sky: { radiance: 1 }
+materials: { white: { lambertian: { albedo: 0.5 } } }
+geometry:
+  - sphere: { center: [0, -1000, 0], radius: 1000, material: white }
+  - sphere: { center: [0, 0.1, 0], radius: 0.1, material: white }
+";
+    let ground = parse(ground, "ground.yaml", &[], "".as_ref()).unwrap();
+    let small = Oracles::new(&ground.valid).costs().unwrap_err();
+    let searched = NearestOracle::new(&ground.valid).unwrap_err();
+    texts.push(tell(&ground, vec![small.problem()]));
+    texts.push(tell(&ground, vec![searched.problem()]));
 
     let shiny = wall("").source.text.replace(
         "emitter: { radiance: [1, 1, 1] }",
@@ -177,7 +193,7 @@ sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }] }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book_reference");
     fs::create_dir_all(&folder).unwrap();
     let file = fs::File::create(folder.join("large.obj")).unwrap();
-    file.set_len(obj::MAX_BYTES + 1).unwrap();
+    file.set_len(meshes::MAX_BYTES + 1).unwrap();
     let large = "\
 name: large
 camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 } }

@@ -1,7 +1,7 @@
 //! A simple simulator of gates on bits: 64 states a word, independent of the machines' code.
 
 use super::{inputs, number};
-use qrt::circuit::{Circuit, Gate, Operand, Qubit};
+use qrt::circuit::{Gate, GateCircuit, Operand, Qubit};
 use qrt::core::oracle::Oracle;
 
 /// States of all paths of all pixels of a film, 64 to a word.
@@ -28,7 +28,12 @@ fn packed(bits: impl Iterator<Item = bool>) -> Vec<u64> {
 
 impl States {
     /// Prepares the state before `circuit`, in every pixel and path: the path index, and zeros.
-    pub(crate) fn new(oracle: &Oracle, circuit: &Circuit, seed: u64, pixels: &[[u32; 2]]) -> Self {
+    pub(crate) fn new(
+        oracle: &Oracle,
+        circuit: &GateCircuit,
+        seed: u64,
+        pixels: &[[u32; 2]],
+    ) -> Self {
         let paths = 1_usize << oracle.points.path_bits();
         let count = pixels.len() * paths;
         let width = count.div_ceil(64);
@@ -94,7 +99,7 @@ impl States {
     }
 
     /// Returns the value of an operand in every state, whose register's qubits are in `outputs`.
-    pub(crate) fn numbers(&self, circuit: &Circuit, operand: Operand) -> Vec<i64> {
+    pub(crate) fn numbers(&self, circuit: &GateCircuit, operand: Operand) -> Vec<i64> {
         let Operand::Word(word) = operand else {
             return vec![number(operand, &[]); self.count];
         };

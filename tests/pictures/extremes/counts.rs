@@ -2,12 +2,18 @@
 
 use super::Extreme;
 use qrt::counting::PhaseDistribution;
-use qrt::counting::estimators::{Estimate, Problem, estimate};
+use qrt::counting::estimators::{CountingProblem, Estimate, estimate};
 use qrt::counting::random::Stream;
 use qrt::scene::{Counting, Estimator, Window};
 
 /// Runs an estimator once; its result must be valid for any problem.
-fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64) -> Estimate {
+fn run(
+    name: Estimator,
+    problem: CountingProblem,
+    bits: u32,
+    repetitions: u32,
+    seed: u64,
+) -> Estimate {
     let counting = Counting {
         phase_bits: bits,
         repetitions,
@@ -26,7 +32,7 @@ fn run(name: Estimator, problem: Problem, bits: u32, repetitions: u32, seed: u64
     found
 }
 
-fn truth(problem: Problem) -> f64 {
+fn truth(problem: CountingProblem) -> f64 {
     problem.good as f64 / problem.total as f64
 }
 
@@ -37,7 +43,7 @@ fn ends() -> Extreme {
     for &name in Estimator::ALL {
         for total in [1, 2, 16, 1 << 22, 1 << 60] {
             for good in [0, 1, total - 1, total] {
-                let problem = Problem { good, total };
+                let problem = CountingProblem { good, total };
                 let mut errors: Vec<f64> = (0..21)
                     .map(|seed| {
                         let found = run(name, problem, 10, 1, seed);
@@ -125,7 +131,7 @@ fn registers() -> Extreme {
 
 /// Counts with one repetition to a million.
 fn repetitions() -> Extreme {
-    let problem = Problem {
+    let problem = CountingProblem {
         good: (1 << 60) / 7 * 2,
         total: 1 << 60,
     };
@@ -146,7 +152,7 @@ fn repetitions() -> Extreme {
 
 /// Counts with the smallest and the largest budgets.
 fn budgets() -> Extreme {
-    let problem = Problem {
+    let problem = CountingProblem {
         good: (1 << 60) / 5,
         total: 1 << 60,
     };

@@ -6,7 +6,7 @@
 
 use super::Extreme;
 use crate::pictures::cube::{WALLS, corner};
-use qrt::runtime::render::{Model, Options, render};
+use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front::parse;
 use qrt::scene::syntax::Report;
@@ -21,11 +21,11 @@ const DEPTH: i32 = 2;
 /// Renders a scene under a model, counted exactly; returns its pixels.
 fn picture(text: &str, model: Model) -> Result<Vec<[f64; 3]>, Report> {
     let scene = parse(text, "scene.yaml", &[], "".as_ref())?.valid;
-    let options = Options {
-        model,
+    let options = RenderOptions {
+        model: Some(model),
         estimator: Some(Estimator::Exact),
         seed: 1,
-        ..Options::default()
+        ..RenderOptions::default()
     };
     Ok(render(&scene, &options).unwrap().image.pixels)
 }

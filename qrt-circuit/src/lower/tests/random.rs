@@ -1,8 +1,8 @@
 //! Tests of every operation of up to 32 bits, at random, and of programs of several operations.
 
 use super::super::super::{
-    Bit, BlockId, Circuit, Contents, Cores, Gate, Instruction, Multiples, Op, Operand, RegisterId,
-    Style, When, Word,
+    Bit, BlockId, Contents, Cores, Gate, GateCircuit, Instruction, Multiples, Op, Operand,
+    RegisterId, Style, When, Word,
 };
 use super::super::{
     KnownFigures, Size, circuit, costs, depth, least_toffoli, most_qubits, scratch_width, size,
@@ -211,7 +211,7 @@ fn content() -> impl Strategy<Value = u64> {
     ]
 }
 
-fn size_of(circuit: &Circuit) -> Size {
+fn size_of(circuit: &GateCircuit) -> Size {
     Size {
         qubits: circuit.qubits,
         in_use: circuit.in_use.clone(),

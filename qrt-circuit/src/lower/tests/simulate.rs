@@ -2,8 +2,8 @@
 //! integers.
 
 use super::super::super::{
-    Block, BlockId, Circuit, Contents, Gate, Instruction, Op, Parameter, Program, Qubit, Register,
-    RegisterId, Type,
+    Block, BlockId, Contents, Gate, GateCircuit, Instruction, Op, Parameter, Program, Qubit,
+    Register, RegisterId, Type,
 };
 use super::super::{Templates, circuit, cost, least_toffoli, scratch_width, try_each_template};
 use std::convert::Infallible;
@@ -90,8 +90,8 @@ impl States {
 pub(super) struct Bench {
     op: Op,
     pub(super) program: Program,
-    forth: Circuit,
-    back: Circuit,
+    forth: GateCircuit,
+    back: GateCircuit,
 }
 
 /// Returns the gates of a program and the number of operations lowered. Operations that are alike

@@ -1,11 +1,11 @@
 //! The oracle that computes the numbers of a path, each in a register of its format.
 
 use super::Marks;
-use crate::compile::{self, Bool, Builder, Real, Role};
+use crate::compile::{self, BoolValue, Builder, RealValue, Role};
 use crate::oracle::paths::{PathFormats, PathNumber, RayNumber as Of};
 use crate::oracle::recording::{PrimaryHit, record};
 use crate::oracle::target::target;
-use crate::oracle::{Channel, Options, Oracle, OracleError, register_of};
+use crate::oracle::{Channel, Oracle, OracleError, OracleOptions, register_of};
 use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
 use qrt_circuit::{RegisterId, Type};
 use qrt_scene::Nearest;
@@ -19,13 +19,13 @@ pub(super) fn traced(
     formats: &PathFormats,
     numbers: &[PathNumber],
     marks: Marks,
-    options: Options,
+    options: OracleOptions,
 ) -> Result<(Oracle, Vec<RegisterId>), OracleError> {
     let written = scene.scene();
     let stage = formats.stage(scene, numbers, options.class).relative();
     let points = PathPoints::new(&written.sampling)?;
     let strategy = options.strategy(scene)?;
-    let target = target(scene, &stage, &points, strategy, options.passes);
+    let target = target(scene, &stage, &points, strategy, options)?;
     let (film, fraction) = (target.film, target.fraction);
     let mut builder = Builder::new(target).with_values(stage.values(scene));
     let bits = match marks {
@@ -37,9 +37,15 @@ pub(super) fn traced(
     let (colours, _) = match written.circuit.nearest {
         Nearest::Running => {
             let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
-            record(&mut builder, &stage, &search, PrimaryHit::Traced)?
+            record(scene, &mut builder, &stage, &search, PrimaryHit::Traced)?
         }
-        Nearest::Paper => record(&mut builder, &stage, &Records(&stage), PrimaryHit::Traced)?,
+        Nearest::Paper => record(
+            scene,
+            &mut builder,
+            &stage,
+            &Records::new(&stage, 1.0 / (1_u64 << fraction) as f64),
+            PrimaryHit::Traced,
+        )?,
     };
     let bounds = stage.bound();
     let mut channels = Vec::new();
@@ -59,7 +65,10 @@ pub(super) fn traced(
         formats,
         stage: &stage,
         face_numbers: (1..=stage.surface_of.len() as u32).collect(),
-        material_numbers: scene.polygons().iter().map(|p| p.surface + 1).collect(),
+        material_numbers: scene
+            .surface_of_faces()
+            .map(|surface| surface + 1)
+            .collect(),
         colours,
     };
     let names: Vec<String> = numbers.iter().map(ToString::to_string).collect();
@@ -70,6 +79,7 @@ pub(super) fn traced(
     builder.leave();
     let id = builder.id();
     let sharing = builder.sharing();
+    scene.count_recording();
     let recorded = builder.finish()?;
     let parameters = recorded.parameters.clone();
     let counts = channels
@@ -105,6 +115,7 @@ pub(super) fn traced(
         fraction,
         points,
         film,
+        pixel: options.pixel,
         places: Vec::new(),
         sharing,
     };
@@ -120,7 +131,7 @@ struct Reader<'a> {
     /// By face: the number of its material in registers.
     material_numbers: Vec<u32>,
     /// The colours by channel, in units of the channel's bound.
-    colours: [Real; 3],
+    colours: [RealValue; 3],
 }
 
 impl Reader<'_> {
@@ -169,7 +180,7 @@ impl Reader<'_> {
     }
 
     /// True if the ray meets the front of its face; arbitrary if it meets none.
-    fn front<'a>(&self, cx: &mut Builder<'a>, segment: &Segment<Builder<'a>>) -> Bool {
+    fn front<'a>(&self, cx: &mut Builder<'a>, segment: &Segment<Builder<'a>>) -> BoolValue {
         if let Some(front) = segment.front {
             return front;
         }
@@ -196,8 +207,8 @@ fn entry_in<'a>(
 /// The register of a number that is `number` if `when` holds, and 0 otherwise.
 fn number_where(
     cx: &mut Builder<'_>,
-    when: Bool,
-    number: Real,
+    when: BoolValue,
+    number: RealValue,
     shape: (Type, u32),
     shift: i32,
 ) -> RegisterId {

@@ -23,7 +23,7 @@ pub(crate) use vertex::{Vertex, members};
 use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;
 use super::vector::{self, Vector};
-use super::{Arith, Coordinate, Part, Sampled};
+use super::{Arith, Coordinate, Sampled, TracerPart};
 use custom::CustomLobe;
 use dielectric::DielectricLobe;
 use ggx::GgxLobe;
@@ -444,7 +444,7 @@ impl<const C: usize> ScatterStage<C> {
             // Read here, so that the coordinates belong to the ray and not to this part of it alone.
             let _ = cx.coordinate(Coordinate::u(square.depth));
             let _ = cx.coordinate(Coordinate::v(square.depth));
-            cx.enter(Part::Sample);
+            cx.enter(TracerPart::Sample);
             sample.mapped = square.map.sample(cx, square.depth);
             cx.leave();
         }

@@ -1,7 +1,7 @@
 //! The vertex at which a path scatters, its local frame, and the choice among surfaces.
 
 use crate::tracer::vector::{self, Vector};
-use crate::tracer::{Arith, Part};
+use crate::tracer::{Arith, TracerPart};
 use std::ops::Range;
 
 /// The vertex at which a path scatters.
@@ -90,7 +90,7 @@ pub(super) fn to_scene<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>) 
 
 #[inline(always)]
 fn component<A: Arith>(cx: &mut A, at: &Vertex<A>, local: &Vector<A>, axis: usize) -> A::Real {
-    cx.enter(Part::Component(axis));
+    cx.enter(TracerPart::Component(axis));
     let frame = [at.tangent[axis], at.bitangent[axis], at.normal[axis]];
     let sum = math!(cx, known(dot(frame, *local), -1.0, 1.0));
     cx.leave();

@@ -19,7 +19,7 @@ fn found(outlines: &[Vec<[f64; 3]>]) -> Vec<[usize; 2]> {
         }
     };
     let polygons: Vec<Polygon> = outlines.iter().map(polygon).collect();
-    let geometry = Geometry::new(&polygons, |_| false, &[]);
+    let geometry = StageGeometry::new(&polygons, &[], |_| false, &[]);
     let bodies = bodies(&geometry, &Edges::new(&geometry), TOLERANCE);
     let bounds = bodies.iter().map(|body| {
         let with = body.bounds.iter().filter(|bound| !bound.faces.is_empty());
@@ -150,7 +150,7 @@ fn a_polygon_is_inside_a_body_by_more_than_the_tolerance() {
             surface: 0,
         })
         .collect();
-    let geometry = Geometry::new(&polygons, |_| false, &[]);
+    let geometry = StageGeometry::new(&polygons, &[], |_| false, &[]);
     let bodies = bodies(&geometry, &Edges::new(&geometry), TOLERANCE);
     // In stage units the box is from -0.5 to 0.5.
     let square = |half: f64, y: f64| {

@@ -1,7 +1,9 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
+use super::balls::BallPlan;
+use crate::tracer::ball::StageBall;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
-use crate::tracer::geometry::Geometry;
+use crate::tracer::geometry::StageGeometry;
 use crate::tracer::polygon::{EdgeTest, Plane, edge_test};
 use crate::tracer::ray::Start;
 use glam::DVec3;
@@ -14,13 +16,15 @@ const MOST_COMPARED: usize = 1 << 24;
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Plan {
     pub(super) outer: Vec<Outer>,
-    /// Planes that are tested as [`Geometry`] tests them, and the places of their faces.
+    /// Planes that are tested as [`StageGeometry`] tests them, and the places of their faces.
     pub(super) planes: Vec<(usize, Vec<usize>)>,
     pub(super) bodies: Vec<Met>,
     /// Planes with emitting faces, and the places of these and of those that hide them.
     pub(super) emitting: Vec<(usize, Vec<usize>)>,
+    /// The spheres.
+    pub(super) balls: BallPlan,
     /// The other planes that may hide a lamp, and the places of their faces. They are tested as
-    /// [`Geometry`] tests them.
+    /// [`StageGeometry`] tests them.
     pub(super) before_lamps: Vec<(usize, Vec<usize>)>,
 }
 
@@ -123,7 +127,7 @@ impl Facet {
 }
 
 pub(super) struct Planner<'a> {
-    pub(super) geometry: &'a Geometry,
+    pub(super) geometry: &'a StageGeometry,
     pub(super) edges: &'a Edges,
     /// The points where the camera's rays start, or the corners of the area that they start from.
     pub(super) eyes: &'a [DVec3],
@@ -148,7 +152,7 @@ impl Planner<'_> {
     fn starts(&self, start: Start) -> Box<dyn Iterator<Item = DVec3> + '_> {
         match start {
             Start::Camera => Box::new(self.eyes.iter().copied()),
-            Start::Surface => Box::new(self.geometry.corners.iter().flatten().copied()),
+            Start::Surface => Box::new(self.geometry.points()),
         }
     }
 
@@ -237,6 +241,7 @@ impl Planner<'_> {
             outer,
             planes: planes.collect(),
             bodies: bodies.collect(),
+            balls: BallPlan::new(self.geometry, self.eyes, self.transmits, start, self.ulp),
             emitting: self.planes_with(|place| self.geometry.faces[place].is_asked_first()),
             before_lamps: before_lamps.collect(),
         }
@@ -259,9 +264,10 @@ impl Planner<'_> {
             if !plane.outermost {
                 return None;
             }
-            let corners = self.geometry.corners.iter().flatten();
-            let far = corners
-                .map(|&corner| height(plane, corner))
+            let far = self
+                .geometry
+                .points()
+                .map(|corner| height(plane, corner))
                 .max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
             let below = far < 0.0;
             let inside = |eye: &DVec3| {
@@ -466,6 +472,19 @@ impl Planner<'_> {
             bound.faces.is_empty() && (enters(Start::Camera) || enters(Start::Surface))
         };
         if body.bounds.iter().any(open) {
+            return true;
+        }
+        // A ray may leave a sphere that reaches into the body.
+        let reaches_in = |ball: &StageBall| {
+            let mut bounds = body.bounds.iter();
+            bounds.all(|bound| {
+                let [a, b] = bound.plane.form;
+                // Heights are along the plane's main axis.
+                let reach = ball.radius * (1.0 + a * a + b * b).sqrt();
+                bound.outside(ball.centre) < reach - SAME_PLANE.sqrt()
+            })
+        };
+        if start == Start::Surface && self.geometry.balls.iter().any(reaches_in) {
             return true;
         }
         let mut own = vec![false; self.geometry.faces.len()];

@@ -1,5 +1,5 @@
-//! Compares the searches of circuits with [`Geometry`], which tests every plane: the same faces,
-//! distances, sides, lamps and shadows along thousands of random paths.
+//! Compares the searches of circuits with [`StageGeometry`], which tests every plane: the same
+//! faces, distances, sides, lamps and shadows along thousands of random paths.
 
 use super::*;
 use crate::tracer::frame::start;
@@ -11,20 +11,21 @@ use qrt_scene::front::parse;
 use scenes::scenes;
 use std::fmt::Write;
 
+mod balls;
 mod found;
 mod scenes;
 
 /// Random numbers in 0..1, the same on every run.
-struct Chance(u64);
+pub(super) struct Chance(pub(super) u64);
 
 impl Chance {
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
         self.0 = next.wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as f64 / (1_u64 << 31) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 

@@ -3,7 +3,7 @@
 use super::Goal;
 use super::support::{self, Prior, Support};
 use super::unbiased::{self, Evidence};
-use crate::estimators::device::id_bits;
+use crate::estimators::id_bits;
 use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Usage};
 use std::f64::consts::PI;

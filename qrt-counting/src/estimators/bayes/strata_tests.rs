@@ -1,6 +1,6 @@
 //! Tests of counting by strata.
 
-use crate::estimators::{Device, Estimate, Noise, Problem, Settings, estimator};
+use crate::estimators::{CountingProblem, Device, Estimate, Noise, Settings, estimator};
 use crate::random::Stream;
 use crate::{Octaves, Stratum};
 use qrt_scene::{Counting, Estimator};
@@ -184,7 +184,7 @@ fn strata_pay_where_colours_are_small_and_are_left_alone_where_not() {
 fn one_stratum_is_the_whole_query_by_query() {
     for (about, octaves) in pixels() {
         let good = octaves.good().iter().sum();
-        let problem = Problem {
+        let problem = CountingProblem {
             good,
             total: PATHS << BITS,
         };
@@ -249,7 +249,7 @@ fn an_asked_error_is_reached() {
 fn a_stratum_that_is_not_there_is_refused() {
     let mut stream = Stream::new(1, 0, 0, 0);
     let upper = Stratum::halving(2, BITS).last().unwrap();
-    let problem = Problem { good: 1, total: 4 };
+    let problem = CountingProblem { good: 1, total: 4 };
     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
     assert!(device.within(upper, |_| ()).is_err());
     let mut small = Octaves::new(2);

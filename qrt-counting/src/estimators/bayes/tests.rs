@@ -3,9 +3,10 @@
 use super::posterior::Posterior;
 use super::support::Prior;
 use crate::Angle;
-use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::estimators::{CountingProblem, Device, Noise, Settings, estimator};
 use crate::random::Stream;
-use qrt_scene::{Counting, Estimator, Window};
+use qrt_circuit::quantum::Window;
+use qrt_scene::{Counting, Estimator};
 
 fn settings(queries: u64) -> Settings {
     let counting = Counting {
@@ -78,7 +79,7 @@ fn posteriors_equal_sums_over_every_count() {
         };
         let noise = if case % 3 == 0 { noisy } else { Noise::NONE };
         let good = (stream.uniform() * (total + 1) as f64) as u64;
-        let mut device = Device::new(Problem { good, total }, noise, &mut stream).unwrap();
+        let mut device = Device::new(CountingProblem { good, total }, noise, &mut stream).unwrap();
         let mut posterior = Posterior::new(total, noise, Prior::Even);
         let mut shots = Vec::new();
         for round in 0..14_u64 {
@@ -133,7 +134,7 @@ fn few_ids_are_counted_exactly() {
         for total in [1, 2, 3, 16, 64] {
             for good in [0, 1, total / 2, total - 1, total] {
                 let mut stream = Stream::new(3, good as u32, total as u32, 0);
-                let problem = Problem { good, total };
+                let problem = CountingProblem { good, total };
                 let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
                 let found = estimator(name, &settings(20_000))
                     .unwrap()
@@ -168,7 +169,7 @@ fn errors_fall_with_the_queries() {
                 .map(|run| {
                     let mut stream = Stream::new(6, run, 1, 0);
                     let good = (stream.uniform() * total as f64) as u64;
-                    let problem = Problem { good, total };
+                    let problem = CountingProblem { good, total };
                     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
                     let run = estimator(name, &settings(queries)).unwrap();
                     let found = run.estimate(&mut device).unwrap();
@@ -217,7 +218,7 @@ fn extremes_hold() {
                 ),
             ] {
                 let mut stream = Stream::new(4, 0, 0, 0);
-                let problem = Problem { good, total };
+                let problem = CountingProblem { good, total };
                 let mut device = Device::new(problem, noise, &mut stream).unwrap();
                 let asked = Settings {
                     known_noise: noise,
@@ -251,7 +252,7 @@ fn an_asked_error_ends_the_run() {
             ..settings(1 << 30)
         };
         let mut stream = Stream::new(4, 0, 0, 0);
-        let problem = Problem {
+        let problem = CountingProblem {
             good: 300,
             total: 1000,
         };
@@ -279,7 +280,8 @@ fn contradictory_outcomes_are_survived() {
                     depolarising: 0.1,
                     readout: 0.05,
                 };
-                let mut device = Device::new(Problem { good, total }, noise, &mut stream).unwrap();
+                let mut device =
+                    Device::new(CountingProblem { good, total }, noise, &mut stream).unwrap();
                 let found = estimator(name, &settings(3000))
                     .unwrap()
                     .estimate(&mut device)

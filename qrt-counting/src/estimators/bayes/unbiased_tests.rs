@@ -1,7 +1,7 @@
 //! Tests of estimates at the ends, and from shots without iterations.
 
 use super::unbiased::{Evidence, amplitude};
-use crate::estimators::{Device, Noise, Problem, Settings, estimator};
+use crate::estimators::{CountingProblem, Device, Noise, Settings, estimator};
 use crate::random::Stream;
 use qrt_scene::{Counting, Estimator};
 
@@ -18,7 +18,7 @@ fn black_stays_black_and_white_white() {
             for good in [0, total] {
                 for run in 0..20 {
                     let mut stream = Stream::new(queries, run, 5, 0);
-                    let problem = Problem { good, total };
+                    let problem = CountingProblem { good, total };
                     let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
                     let found = estimator.estimate(&mut device).unwrap().amplitude;
                     let truth = if good == 0 { 0.0 } else { 1.0 };

@@ -49,9 +49,10 @@ impl Device<'_> {
     /// A reference that is not in [0, 1], or more queries than [`MAX_ITERATIONS`].
     ///
     /// ```
-    /// use qrt_counting::estimators::{Device, Noise, Problem};
+    /// use qrt_counting::estimators::{Device, Noise, CountingProblem};
     /// use qrt_counting::random::Stream;
-    /// let (problem, mut stream) = (Problem { good: 3, total: 8 }, Stream::new(1, 0, 0, 0));
+    /// let problem = CountingProblem { good: 3, total: 8 };
+    /// let mut stream = Stream::new(1, 0, 0, 0);
     /// let mut device = Device::new(problem, Noise::NONE, &mut stream)?;
     /// // At the reference itself, nothing is left to be amplified.
     /// assert_eq!(device.shifted(0.375, 1001, 500)?, 0);
@@ -90,7 +91,7 @@ impl Device<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimators::{Noise, Problem};
+    use crate::estimators::{CountingProblem, Noise};
     use crate::random::Stream;
 
     /// State vector of the index qubits and the coin, which is the highest qubit. All gates are
@@ -188,7 +189,7 @@ mod tests {
     /// qubits and a coin.
     #[test]
     fn heads_are_drawn_with_and_without_noise() {
-        let problem = Problem { good: 3, total: 16 };
+        let problem = CountingProblem { good: 3, total: 16 };
         let noisy = Noise {
             depolarising: 0.02,
             readout: 0.01,

@@ -10,7 +10,7 @@
 //! the others with `(C - x)/(N - S)`. The outcomes of a run show how colours are spread, at no
 //! further queries.
 
-use super::{Device, Problem, Usage};
+use super::{CountingProblem, Device, Usage};
 use crate::estimators::{EstimatorError, Noise};
 use crate::random::Stream;
 use crate::{Octaves, Stratum, binomial};
@@ -73,7 +73,7 @@ impl<'a> Device<'a> {
         stream: &'a mut Stream,
     ) -> Result<Self, EstimatorError> {
         let (bits, paths, good) = (octaves.bits(), octaves.paths(), octaves.good());
-        let problem = Problem {
+        let problem = CountingProblem {
             good: good.iter().sum(),
             total: paths << bits,
         };
@@ -106,7 +106,7 @@ impl<'a> Device<'a> {
     ///
     /// They are listed by the length in bits of the number of thresholds that the index's path
     /// exceeds.
-    pub fn measured_paths(&self) -> &[[u64; 2]] {
+    pub(crate) fn measured_paths(&self) -> &[[u64; 2]] {
         self.known.as_ref().map_or(&[], |known| &known.measured)
     }
 
@@ -123,7 +123,7 @@ impl<'a> Device<'a> {
         let octaves = known.and_then(|known| known.octaves.get(stratum.octaves()));
         let octaves = octaves.ok_or(EstimatorError::NotByStrata)?;
         let sum = |which: usize| octaves.iter().map(|indices| indices[which]).sum::<u64>();
-        let problem = Problem {
+        let problem = CountingProblem {
             good: sum(0),
             total: sum(0) + sum(1),
         };

@@ -1,7 +1,7 @@
 //! Tests of iterative estimation.
 
 use super::*;
-use crate::estimators::{AmplitudeEstimator, Noise, Problem};
+use crate::estimators::{AmplitudeEstimator, CountingProblem, Noise};
 use crate::random::Stream;
 use qrt_scene::Counting;
 
@@ -20,7 +20,7 @@ fn mean_queries(estimator: &dyn AmplitudeEstimator, error: f64, runs: u32) -> (f
         let mut stream = Stream::new(7, run, 0, 0);
         let total = 1 << 40;
         let good = ((f64::from(run) + 0.5) / f64::from(runs) * total as f64) as u64;
-        let problem = Problem { good, total };
+        let problem = CountingProblem { good, total };
         let mut device = Device::new(problem, Noise::NONE, &mut stream).unwrap();
         let found = estimator.estimate(&mut device).unwrap();
         assert!(found.interval.1 - found.interval.0 <= 2.0 * error);
@@ -99,7 +99,7 @@ fn failures_add_up_to_the_failure_probability() {
 /// Checks that a state returns with probability cos^2(2k pi theta), with k queries.
 #[test]
 fn returns_of_the_state_are_even_multiples() {
-    let problem = Problem {
+    let problem = CountingProblem {
         good: 37,
         total: 1 << 10,
     };

@@ -7,7 +7,7 @@ mod search;
 mod tests;
 
 use super::clopper_pearson::clopper_pearson;
-use super::device::id_bits;
+use super::id_bits;
 use super::normal::normal_quantile;
 use super::turns::amplitude;
 use super::{AmplitudeEstimator, Device, Estimate, EstimatorError, Noise, Settings};
@@ -52,7 +52,7 @@ impl Mlae {
     /// probability of a wrong choice fall as fast as its error grows, without which the root mean
     /// square error would not fall with the queries (Higgins et al., *Demonstrating
     /// Heisenberg-limited unambiguous phase estimation without adaptive measurements*, 2009).
-    pub const MORE_SHOTS: u64 = 3;
+    pub(crate) const MORE_SHOTS: u64 = 3;
     /// Factor on the asymptotic likelihood ratio.
     pub const REACH: f64 = 1.2;
     /// Queries times the interval's half-width, for a around 1/2.

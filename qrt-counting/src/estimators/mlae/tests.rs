@@ -6,7 +6,7 @@ use super::search::search;
 use super::*;
 use crate::binomial;
 use crate::estimators::turns::{HALF, of_sine_squared, sine_squared};
-use crate::estimators::{MAX_ITERATIONS, Problem};
+use crate::estimators::{CountingProblem, MAX_ITERATIONS};
 use crate::random::Stream;
 use proptest::prelude::*;
 use qrt_scene::Counting;
@@ -167,7 +167,7 @@ fn known_noise_is_reckoned_with() {
             let mut stream = Stream::new(11, run, 0, 0);
             let total = 1 << 20;
             let good = (stream.uniform() * total as f64) as u64;
-            let problem = Problem { good, total };
+            let problem = CountingProblem { good, total };
             let mut device = Device::new(problem, noise, &mut stream).unwrap();
             let found = estimator.estimate(&mut device).unwrap();
             let truth = good as f64 / total as f64;

@@ -2,8 +2,8 @@
 
 use super::maker::{Maker, PARAMETERS};
 use crate::fixed::compile::negative;
-use crate::fixed::contents;
-use crate::{Fixed, InstructionSet, Span};
+use crate::fixed::contents_by_definition;
+use crate::{FixedMachine, InstructionSet, PixelLanes};
 use qrt_circuit::{RegisterId, Word};
 
 impl Maker {
@@ -32,11 +32,11 @@ impl Maker {
             .collect();
         let half = states.len() / 2;
         let spans = [(half, &pixels[0]), (states.len() - half, &pixels[1])];
-        let spans = spans.map(|(lanes, parameters)| Span { lanes, parameters });
+        let spans = spans.map(|(lanes, parameters)| PixelLanes { lanes, parameters });
         let expected = states.iter().zip(others).enumerate();
         let expected: Vec<_> = expected
             .map(|(lane, (id, other))| {
-                contents(&program, &[*id, *other], &pixels[usize::from(lane >= half)])
+                contents_by_definition(&program, &[*id, *other], &pixels[usize::from(lane >= half)])
             })
             .collect();
         // All registers, and then a few, so that the compiler leaves out steps, fuses steps and
@@ -48,7 +48,7 @@ impl Maker {
             .collect();
         let sets = InstructionSet::available().into_iter();
         for (set, outputs) in sets.flat_map(|set| [(set, &outputs), (set, &few)]) {
-            let machine = Fixed::new(&program, outputs).with_instructions(set);
+            let machine = FixedMachine::new(&program, outputs).with_instructions(set);
             let mut lanes = machine.lanes();
             let mut values = vec![vec![0; states.len()]; outputs.len()];
             let mut slices: Vec<&mut [i64]> = values.iter_mut().map(Vec::as_mut_slice).collect();

@@ -160,7 +160,10 @@ fn extremes_are_what_registers_held() {
     let mut extremes = Extremes::new(&program);
     for id in 0..16 {
         let held = extremes.record(&program, &[id, 0], &[0; PARAMETERS]);
-        assert_eq!(held, contents(&program, &[id, 0], &[0; PARAMETERS]));
+        assert_eq!(
+            held,
+            contents_by_definition(&program, &[id, 0], &[0; PARAMETERS])
+        );
     }
     assert_eq!(extremes.registers[0], [0, 15]);
     assert_eq!(extremes.registers[target.index()], [-16, 14]);

@@ -32,8 +32,8 @@ const TOGETHER: usize = 16;
 /// groups. The qubits that are not the same in all states distinguish groups, so that ancillas at
 /// zero cost nothing.
 ///
-/// The machine drops a state when its amplitude is at most [`Sparse::ROUNDING`]: the rounding
-/// errors of amplitudes that cancel are below it. [`Sparse::dropped`] is the sum of the
+/// The machine drops a state when its amplitude is at most [`Sparse::ROUNDING`], which is about
+/// what rounding leaves of amplitudes that cancel. [`Sparse::dropped`] is the sum of the
 /// probabilities of dropped states; nothing is renormalised.
 ///
 /// The results are the same bits for any number of threads and any instruction set.
@@ -70,8 +70,10 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// Largest amplitude that is dropped: below the rounding error (2^-53) of states with
-    /// amplitudes of 2^-20 and above.
+    /// Largest amplitude that is dropped, just below 2^-53. Two amplitudes below 1/2 that cancel
+    /// and were each rounded once leave at most 2^-54, which is dropped. Larger amplitudes, and
+    /// those that were rounded many times, can leave more; such a state stays, which costs memory
+    /// only.
     pub const ROUNDING: f64 = 1e-16;
 
     /// Largest number of states. A state takes a bit for each qubit and 16 bytes; while states are

@@ -4,7 +4,7 @@ use super::Owned;
 use super::*;
 use num_complex::Complex;
 use qrt_circuit::quantum::Window;
-use qrt_circuit::quantum::{Counting, PhaseOracle};
+use qrt_circuit::quantum::{CountingCircuit, PhaseOracle};
 
 const CIRQ: &str = include_str!("cirq.txt");
 
@@ -65,7 +65,7 @@ fn cirq_finds_the_same_amplitudes_and_outcomes() {
             let phase_bits = head[1].parse().unwrap();
             let good: Vec<bool> = head[2].chars().map(|digit| digit == '1').collect();
             let oracle = PhaseOracle::table(good.len().ilog2(), |id| good[id as usize]).unwrap();
-            let counting = Counting::new(&oracle, phase_bits, Window::Rect).unwrap();
+            let counting = CountingCircuit::new(&oracle, phase_bits, Window::Rect).unwrap();
             let expected: Vec<f64> = body.iter().map(|line| number(line[1])).collect();
             assert_eq!(expected.len(), 1 << phase_bits);
             let mut machine = Dense::new(counting.qubits()).unwrap();

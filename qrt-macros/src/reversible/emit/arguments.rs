@@ -11,7 +11,7 @@ use syn::Ident;
 /// Borrows registers of one array, all at once. Returns the statement and the names of the borrows.
 pub(super) fn from_array(array: &Ident, registers: &[&Register]) -> (TokenStream, Vec<Ident>) {
     let names: Vec<Ident> = (0..registers.len())
-        .map(|place| own(&format!("{array}{place}")))
+        .map(|place| own(&format!("{array}_{place}")))
         .collect();
     let places = registers.iter().filter_map(|register| {
         let place = register.element.as_ref()?.grouped();

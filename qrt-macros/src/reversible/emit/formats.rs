@@ -2,6 +2,7 @@
 //! width, but a type can have a constant with a computed value. Each of these formats is a type of
 //! the routine's, and a parameter may be of any type that has the same format.
 
+use crate::reversible::constants::Constants;
 use crate::reversible::ir::{Kind, Register, Routine, Signature, Statement, StatementKind as K};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -22,7 +23,8 @@ pub(super) fn declared(routine: &Routine) -> TokenStream {
     declared.collect()
 }
 
-fn one(name: &Ident, register: &Register, constants: &[Ident]) -> TokenStream {
+fn one(name: &Ident, register: &Register, constants: &Constants) -> TokenStream {
+    let (declared, names) = (constants.declared(), &constants[..]);
     let format = &register.format;
     let (width, fraction) = (format.width.signed_tokens(), format.fraction.tokens());
     let ty = match format.kind {
@@ -34,12 +36,12 @@ fn one(name: &Ident, register: &Register, constants: &[Ident]) -> TokenStream {
     };
     quote! {
         #[allow(non_camel_case_types, dead_code, reason = "it is called like its width")]
-        struct #name<#(const #constants: u32),*>;
-        impl<#(const #constants: u32),*> ::qrt::circuit::format::Format
-            for #name<#(#constants),*>
+        struct #name<#(#declared),*>;
+        impl<#(#declared),*> ::qrt::circuit::format::Format
+            for #name<#(#names),*>
         {
             const TYPE: ::qrt::circuit::Type = ::qrt::circuit::Type::#ty;
-            const WIDTH: u32 = ::qrt::circuit::format::width(#width);
+            const WIDTH: ::core::primitive::u32 = ::qrt::circuit::format::width(#width);
         }
     }
 }
@@ -53,6 +55,7 @@ pub(super) fn agree(signature: &Signature) -> TokenStream {
         parameters,
         ..
     } = signature;
+    let (declared, names) = (constants.declared(), &constants[..]);
     let computed = parameters.iter().filter_map(|parameter| {
         let name = &parameter.name;
         let format = parameter.computed.as_ref()?;
@@ -67,14 +70,14 @@ pub(super) fn agree(signature: &Signature) -> TokenStream {
         };
         Some(quote! {
             {
-                struct Expected<#(const #constants: u32),*>;
-                impl<#(const #constants: u32),*> ::qrt::circuit::format::Expected
-                    for Expected<#(#constants),*>
+                struct __Expected<#(#declared),*>;
+                impl<#(#declared),*> ::qrt::circuit::format::ExpectedFormat
+                    for __Expected<#(#names),*>
                 {
-                    type Format = #format<#(#constants),*>;
-                    const OTHERWISE: &'static str = #message;
+                    type Format = #format<#(#names),*>;
+                    const OTHERWISE: &'static ::core::primitive::str = #message;
                 }
-                ::qrt::circuit::format::agree::<Expected<#(#constants),*>, _, _>(#one);
+                ::qrt::circuit::format::agree::<__Expected<#(#names),*>, _, _>(#one);
             }
         })
     });
@@ -90,7 +93,7 @@ fn scratch<'a>(statements: &'a [Statement], found: &mut Vec<&'a Rc<Register>>) {
             }
             K::If(_, a, b) | K::Within(a, b) => (a, b),
             K::For { body, .. } | K::Block(body) => (body, &[]),
-            K::Update(..) | K::Swap(..) | K::Call { .. } => continue,
+            K::Update(..) | K::Swap(..) | K::Zero(_) | K::Call { .. } => continue,
         };
         scratch(first, found);
         scratch(second, found);

@@ -26,6 +26,8 @@ pub(super) struct Log {
     changes: Vec<Change>,
     /// The places that have been reported, which another pass of a loop does not report again.
     said: BTreeSet<String>,
+    /// Claims that a register is 0, with the number of changes before each.
+    claims: Vec<(String, usize)>,
     /// True while statements are looked through for a second time.
     pub(super) again: bool,
 }
@@ -37,6 +39,11 @@ impl Log {
 
     pub(super) fn push(&mut self, change: Change) {
         self.changes.push(change);
+    }
+
+    /// Records a claim that a register is 0 here.
+    pub(super) fn claim(&mut self, register: String) {
+        self.claims.push((register, self.changes.len()));
     }
 
     /// Returns the changes since `begin` that no later one undoes; if all are undone, all changes.
@@ -70,6 +77,11 @@ impl Log {
         if dirty.is_empty() && !self.left(begin, all).is_empty() {
             return;
         }
+        let claims = self
+            .claims
+            .iter()
+            .filter(|(register, _)| dirty.contains(register));
+        let begin = claims.map(|(_, place)| *place).fold(begin, usize::max);
         let left = self.left(begin, dirty);
         let left: Vec<(Texts, TokenStream)> = left
             .iter()

@@ -152,6 +152,12 @@ impl Exact {
                     self.registers.remove(name);
                 }
             }
+            K::Zero(register) => {
+                let name = self.name(register)?;
+                let width = self.known(&register.format.width)? as usize;
+                self.registers.insert(name.clone(), Content::zero(width));
+                self.log.claim(name);
+            }
             K::Block(body) => self.statements(body)?,
         }
         Ok(())

@@ -34,6 +34,7 @@ pub(super) fn key_of(kind: &K, ordered: bool) -> String {
             let [a, b] = [a.to_string(), b.to_string()];
             format!("swap {} {}", (&a).min(&b), (&a).max(&b))
         }
+        K::Zero(register) => format!("zero {register}"),
         K::Call {
             path,
             inverse,

@@ -363,6 +363,7 @@ impl<'a> Tracker<'a> {
             }
             K::Within(within, apply) => self.within(statement, within, apply, frame),
             K::Scratch(register, body) => self.scratch(register, body, frame),
+            K::Zero(register) => drop(frame.changes.remove(&register.name.to_string())),
             K::Block(body) => self.block(body, frame),
         }
     }

@@ -8,7 +8,7 @@ mod source;
 use program::Program;
 use source::places;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::panic::Location;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,13 @@ struct Report {
 thread_local! {
     /// Reports of this test alone: other tests run in threads of their own.
     static REPORTS: RefCell<Vec<Report>> = const { RefCell::new(Vec::new()) };
+    /// The program whose macros run. Tokens know their file in the compiler alone.
+    static FILE: RefCell<Option<PathBuf>> = const { RefCell::new(None) };
+}
+
+/// Returns the file of the program whose macros run.
+pub(crate) fn file() -> Option<PathBuf> {
+    FILE.with_borrow(Clone::clone)
 }
 
 /// Records a report.
@@ -61,11 +68,10 @@ fn every_check_is_failed_by_some_program() {
     let mut wrong = Vec::new();
     for path in &programs {
         REPORTS.take();
-        let mut program = Program {
-            folder: &folder,
-            functions: BTreeMap::new(),
-        };
+        let program = Program { folder: &folder };
+        FILE.set(Some(path.clone()));
         program.run(fs::read_to_string(path).unwrap().parse().unwrap());
+        FILE.set(None);
         let shown = fs::read_to_string(path.with_extension("stderr")).unwrap();
         let mut said = BTreeSet::new();
         for report in REPORTS.take() {

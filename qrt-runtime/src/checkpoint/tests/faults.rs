@@ -31,7 +31,7 @@ fn job(folder: &Scratch, resume: bool) -> Result<(), CheckpointError> {
     let work = (|| {
         for (number, tile) in picture().into_iter().enumerate() {
             if !tiles.contains(&tile) {
-                let part = Part {
+                let part = PixelPart {
                     totals: vec![7; 60],
                     ..part([tile.x, tile.y], 0, 1)
                 };

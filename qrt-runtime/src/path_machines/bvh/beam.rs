@@ -124,8 +124,7 @@ impl Bvh {
                     let node = &self.nodes[number as usize];
                     waiting = node.open_to_beam(cx.simd, beam, limit, number, stack, waiting);
                 }
-                Child::Packet(number, axis) => {
-                    let packet = &self.packets[number as usize];
+                leaf @ (Child::Packet(..) | Child::Balls(_)) => {
                     let mut left = beam.meeting(cx.simd, node, child, &limits);
                     if left == 0 {
                         continue;
@@ -134,7 +133,17 @@ impl Bvh {
                         let lane = left.trailing_zeros() as usize % MOST_RAYS;
                         left &= left - 1;
                         let mut search = NearestFace { best: found[lane] };
-                        packet.show(cx, axis, lines, lane, &mut search);
+                        match leaf {
+                            Child::Packet(number, axis) => {
+                                let packet = &self.packets[number as usize];
+                                packet.show(cx, axis, lines, lane, &mut search);
+                            }
+                            Child::Balls(number) => {
+                                let packet = &self.balls[number as usize];
+                                packet.show(cx, lines, lane, &mut search);
+                            }
+                            Child::Node(_) | Child::Absent => {}
+                        }
                         found[lane] = search.best;
                         limits[lane] = lines.boxed(lane, search.best.distance);
                     }

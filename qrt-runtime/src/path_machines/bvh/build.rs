@@ -5,7 +5,7 @@
 
 use super::{Child, FACES, Node, WIDE};
 use glam::DVec3;
-use qrt_core::tracer::Geometry;
+use qrt_core::tracer::{StageBall, StageGeometry};
 
 /// Number of levels of the binary tree that follow the heuristic; deeper parts are halved.
 const FREE_DEPTH: usize = 32;
@@ -47,17 +47,24 @@ impl Bounds {
     }
 }
 
-/// The tree, and the faces (by place in [`Geometry::faces`]) of each leaf.
+/// The tree, and the faces (by place in [`StageGeometry::faces`]) of each leaf.
 pub(super) struct Tree {
     /// The least and the greatest corner.
     pub(super) bounds: [[f64; 3]; 2],
     pub(super) nodes: Vec<Node>,
     pub(super) levels: usize,
     pub(super) leaves: Vec<Vec<u32>>,
+    /// The spheres of each leaf, by their places after all faces.
+    pub(super) balls: Vec<Vec<u32>>,
 }
 
-/// The boxes of all faces.
-pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
+/// The main axis that stands for spheres, which have none.
+const ROUND: u8 = 3;
+/// Kinds of packets: main axes, and spheres.
+const KINDS: usize = 4;
+
+/// The boxes of all faces and spheres.
+pub(super) fn boxes(geometry: &StageGeometry) -> Vec<Bounds> {
     let margin = DVec3::splat(MARGIN.max(16.0 * geometry.tolerance));
     let of_face = |label: u32| {
         let corners = &geometry.corners[label as usize];
@@ -75,19 +82,24 @@ pub(super) fn boxes(geometry: &Geometry) -> Vec<Bounds> {
             high: around.high + margin,
         }
     };
-    geometry
-        .faces
-        .iter()
-        .map(|face| of_face(face.label))
-        .collect()
+    let of_ball = |ball: &StageBall| {
+        let margin = margin * (1.0 + ball.centre.abs().max_element() + ball.radius);
+        Bounds {
+            low: ball.centre - ball.radius - margin,
+            high: ball.centre + ball.radius + margin,
+        }
+    };
+    let faces = geometry.faces.iter().map(|face| of_face(face.label));
+    faces.chain(geometry.balls.iter().map(of_ball)).collect()
 }
 
 /// The main axes of all faces.
-pub(super) fn axes(geometry: &Geometry) -> Vec<u8> {
+pub(super) fn axes(geometry: &StageGeometry) -> Vec<u8> {
     let mut axes = Vec::with_capacity(geometry.faces.len());
     for plane in &geometry.planes {
         axes.resize(plane.faces.end, plane.axis as u8);
     }
+    axes.resize(geometry.faces.len() + geometry.balls.len(), ROUND);
     axes
 }
 
@@ -103,6 +115,7 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
         nodes: Vec::new(),
         levels: 0,
         leaves: Vec::new(),
+        balls: Vec::new(),
         bounds: [bounds.low.to_array(), bounds.high.to_array()],
     };
     if !faces.is_empty() {
@@ -225,7 +238,7 @@ impl Halving<'_> {
             }
         };
         let group = |face: u32| {
-            let mut counts = [0; 3];
+            let mut counts = [0; KINDS];
             counts[usize::from(self.axes[face as usize])] = 1;
             Group {
                 bounds: self.boxes[face as usize],
@@ -252,7 +265,7 @@ impl Halving<'_> {
                 consider(&left, &right[bin], Cut::Plane(axis, bin));
             }
         }
-        for axis in 0..3 {
+        for axis in 0..KINDS {
             let (mut left, mut right) = (Group::EMPTY, Group::EMPTY);
             for &face in faces {
                 let side = if usize::from(self.axes[face as usize]) == axis {
@@ -281,19 +294,19 @@ enum Cut {
 #[derive(Clone, Copy)]
 struct Group {
     bounds: Bounds,
-    counts: [u32; 3],
+    counts: [u32; KINDS],
 }
 
 impl Group {
     const EMPTY: Self = Self {
         bounds: Bounds::EMPTY,
-        counts: [0; 3],
+        counts: [0; KINDS],
     };
 
     fn with(self, other: Self) -> Self {
         Self {
             bounds: self.bounds.with(other.bounds),
-            counts: [0, 1, 2].map(|axis| self.counts[axis] + other.counts[axis]),
+            counts: std::array::from_fn(|kind| self.counts[kind] + other.counts[kind]),
         }
     }
 
@@ -335,6 +348,10 @@ impl Tree {
         for (place, part) in children.into_iter().enumerate() {
             let Subtree { bounds, content } = &parts[part as usize];
             let child = match content {
+                Content::Packet { faces, axis: ROUND } => {
+                    self.balls.push(faces.clone());
+                    Child::Balls(self.balls.len() as u32 - 1)
+                }
                 Content::Packet { faces, axis } => {
                     self.leaves.push(faces.clone());
                     Child::Packet(self.leaves.len() as u32 - 1, *axis)

@@ -3,7 +3,7 @@
 use super::build::{self, Bounds};
 use crate::path_machines::lanes::Lanes;
 use qrt_core::tracer::{
-    Arith, AxisPermuted, Crossing, EdgeTest, Geometry, Ray, between, cross, weighted,
+    Arith, AxisPermuted, Crossing, EdgeTest, Ray, StageGeometry, between, cross, weighted,
 };
 
 /// Largest number of faces that are taken out of the tree.
@@ -15,7 +15,7 @@ const WALK: f64 = 16.0;
 /// A face outside the tree.
 #[derive(Clone, Debug)]
 pub(super) struct LargeFace {
-    /// Position of the face in [`Geometry::faces`].
+    /// Position of the face in [`StageGeometry::faces`].
     pub(super) rank: u32,
     plane: u32,
     axis: usize,
@@ -26,15 +26,18 @@ pub(super) struct LargeFace {
     pub(super) blocks: bool,
 }
 
-/// Chooses the large faces and returns their numbers in ascending order. Without the large faces,
+/// Chooses the large faces among the first `polygons` and returns their numbers in ascending order. Without the large faces,
 /// the box around the others is smaller, and the walks that this saves cost more than the large
 /// faces.
-pub(super) fn choose(boxes: &[Bounds]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+pub(super) fn choose(boxes: &[Bounds], polygons: usize) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..polygons as u32).collect();
     let area = |face: u32| boxes[face as usize].area();
     order.sort_by(|&a, &b| area(b).total_cmp(&area(a)));
     let most = MOST.min(order.len());
     let mut around = build::around(boxes, &order[most..]);
+    for &ball in &boxes[polygons..] {
+        around = around.with(ball);
+    }
     let mut areas = vec![around.area()];
     for &face in order[..most].iter().rev() {
         around = around.with(boxes[face as usize]);
@@ -49,9 +52,9 @@ pub(super) fn choose(boxes: &[Bounds]) -> Vec<u32> {
 
 impl LargeFace {
     /// Creates the large face number `rank`, which is on the plane number `plane`.
-    pub(super) fn new(geometry: &Geometry, rank: u32, plane: u32) -> Self {
+    pub(super) fn new(geometry: &StageGeometry, rank: u32, plane: u32) -> Self {
         let on = &geometry.planes[plane as usize];
-        // The same condition as in a loop over all faces: see `Geometry::occluded`.
+        // The same condition as in a loop over all faces: see `StageGeometry::occluded`.
         let passed = on.outermost || on.emitters.len() == geometry.emitters as usize;
         let mut beside = geometry.faces_of(plane as usize).iter();
         Self {

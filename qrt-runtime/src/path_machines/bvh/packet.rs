@@ -5,7 +5,7 @@ use super::approach::{Lines, MOST_RAYS};
 use super::walk::Search;
 use crate::path_machines::lanes::{Lanes, lanes};
 use crate::path_machines::masks::bits;
-use qrt_core::tracer::{Arith, AxisPermuted, Geometry, cross, weighted};
+use qrt_core::tracer::{Arith, AxisPermuted, StageGeometry, cross, weighted};
 
 /// Largest number of edges of a face.
 const EDGES: usize = 4;
@@ -21,14 +21,14 @@ pub(super) struct Packet {
     plane: [u64; FACES],
     /// Per edge, `a x + b y >= low`.
     edges: [[[f64; FACES]; 3]; EDGES],
-    /// The faces' places in [`Geometry::faces`].
+    /// The faces' places in [`StageGeometry::faces`].
     rank: [u32; FACES],
     /// Number of edges of the face that has the most.
     most_edges: u32,
 }
 
-/// Returns the plane of each face, in the order of [`Geometry::faces`].
-pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
+/// Returns the plane of each face, in the order of [`StageGeometry::faces`].
+pub(super) fn planes_of_faces(geometry: &StageGeometry) -> Vec<u32> {
     let mut planes = vec![0; geometry.faces.len()];
     for (number, plane) in geometry.planes.iter().enumerate() {
         planes[plane.faces.clone()].fill(number as u32);
@@ -36,9 +36,30 @@ pub(super) fn planes_of_faces(geometry: &Geometry) -> Vec<u32> {
     planes
 }
 
+/// Loads a register of a column from face `first` on. If the register has more lanes than there are
+/// faces, the remaining lanes have no meaning.
+#[inline(always)]
+pub(super) fn reals<S: pulp::Simd>(simd: S, column: &[f64; FACES], first: usize) -> S::f64s {
+    if S::F64_LANES > FACES {
+        simd.partial_load_f64s(column)
+    } else {
+        S::as_simd_f64s(column).0[first / S::F64_LANES]
+    }
+}
+
+/// The same for integers.
+#[inline(always)]
+pub(super) fn indices<S: pulp::Simd>(simd: S, column: &[u64; FACES], first: usize) -> S::u64s {
+    if S::F64_LANES > FACES {
+        simd.partial_load_u64s(column)
+    } else {
+        S::as_simd_u64s(column).0[first / S::F64_LANES]
+    }
+}
+
 impl Packet {
     /// Creates the packet of the faces `ranks`, at most [`FACES`], which share a main axis.
-    pub(super) fn new(geometry: &Geometry, planes: &[u32], ranks: &[u32]) -> Self {
+    pub(super) fn new(geometry: &StageGeometry, planes: &[u32], ranks: &[u32]) -> Self {
         let everywhere = [[0.0; FACES], [0.0; FACES], [f64::NEG_INFINITY; FACES]];
         let mut packet = Self {
             // A face whose cos_theta is NaN is never ahead.
@@ -112,21 +133,7 @@ impl Packet {
         first: usize,
     ) -> (S::m64s, [S::f64s; 1]) {
         let simd = cx.simd;
-        // If a register has more lanes than there are faces, the remaining lanes have no meaning.
-        let real = |column: &[f64; FACES]| {
-            if S::F64_LANES > FACES {
-                [simd.partial_load_f64s(column)]
-            } else {
-                [S::as_simd_f64s(column).0[first / S::F64_LANES]]
-            }
-        };
-        let index = |column: &[u64; FACES]| {
-            if S::F64_LANES > FACES {
-                [simd.partial_load_u64s(column)]
-            } else {
-                [S::as_simd_u64s(column).0[first / S::F64_LANES]]
-            }
-        };
+        let real = |column| [reals(simd, column, first)];
         let axis = usize::from(axis) % 3;
         let lane = lane % MOST_RAYS;
         let (o, d) = (&lines.origin, &lines.direction);
@@ -142,9 +149,10 @@ impl Packet {
         let limit = cx.real(limit);
         let near = cx.less_equal(crossing.distance, limit);
         let mut hit = cx.and(crossing.ahead, near);
-        let left = [cx
-            .simd
-            .equal_u64s(index(&self.plane)[0], cx.simd.splat_u64s(lines.from[lane]))];
+        let left = [cx.simd.equal_u64s(
+            indices(simd, &self.plane, first),
+            cx.simd.splat_u64s(lines.from[lane]),
+        )];
         let other = cx.not(left);
         hit = cx.and(hit, other);
         // Triangles are by far the most frequent, and a branch costs more than an edge.

@@ -162,6 +162,15 @@ impl Bvh {
                         limit = lines.boxed(lane, search.limit());
                     }
                 }
+                Child::Balls(number) => {
+                    let packet = &self.balls[number as usize];
+                    if packet.show(cx, lines, lane, search) {
+                        return true;
+                    }
+                    if T::IN_ORDER {
+                        limit = lines.boxed(lane, search.limit());
+                    }
+                }
                 Child::Absent => {}
             }
             // Take the nearest child on the stack that is not beyond the current limit.

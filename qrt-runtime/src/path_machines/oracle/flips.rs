@@ -1,9 +1,9 @@
 //! Tests of the comparisons between compute and uncompute, on all of their inputs.
 
 use super::{Defect, OracleCircuits};
-use qrt_circuit::{Circuit, Gate, Operand, Qubit, Word};
+use qrt_circuit::{Gate, GateCircuit, Operand, Qubit, Word};
 use qrt_core::oracle::{Channel, Oracle};
-use qrt_machines::{Gates, Rows};
+use qrt_machines::{GatesMachine, Rows};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
     let flips = oracle.channels.iter().zip(&parts.flips);
     for (channel, flip) in flips {
         let flip = Flip::new(oracle, parts, channel, flip)?;
-        let gates = Gates::new(&[&flip.circuit])?;
+        let gates = GatesMachine::new(&[&flip.circuit])?;
         let lanes = gates.lanes() as u64;
         let blocks = flip.pairs.count.div_ceil(lanes) as usize;
         let faults = gates.blocks(blocks, |rows, block| {
@@ -89,7 +89,7 @@ pub(super) fn try_all(oracle: &Oracle, parts: &OracleCircuits) -> Result<(), Def
 
 /// A channel's comparison, on the few qubits that it touches.
 struct Flip {
-    circuit: Circuit,
+    circuit: GateCircuit,
     colour: Vec<Qubit>,
     comparator: Vec<Qubit>,
     /// By qubit of `circuit`: its number in the oracle's circuits.
@@ -102,7 +102,7 @@ impl Flip {
         oracle: &Oracle,
         parts: &OracleCircuits,
         channel: &Channel,
-        flip: &Circuit,
+        flip: &GateCircuit,
     ) -> Result<Self, Defect> {
         let colour = parts.qubits(channel.count);
         let comparator = parts.register(oracle.comparator);
@@ -149,11 +149,11 @@ impl Flip {
         let gates = gates.collect::<Result<_, Defect>>()?;
         let width = colour.len() as Qubit;
         Ok(Self {
-            circuit: Circuit {
+            circuit: GateCircuit {
                 gates,
                 qubits: names.len() as u32,
                 parameters: flip.parameters.clone(),
-                ..Circuit::default()
+                ..GateCircuit::default()
             },
             colour: (0..width).collect(),
             comparator: (width..width + comparator.len() as Qubit).collect(),

@@ -1,6 +1,6 @@
 //! An oracle as circuits, which the gates machine runs.
 
-use qrt_circuit::{Circuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
+use qrt_circuit::{GateCircuit, Instruction, Operand, Program, Qubit, RegisterId, lower};
 use qrt_core::oracle::{MOST_BITS, Oracle};
 use std::sync::{Arc, Mutex};
 
@@ -8,11 +8,11 @@ use std::sync::{Arc, Mutex};
 #[derive(Clone, Debug)]
 pub struct OracleCircuits {
     /// From path indices to colours.
-    pub compute: Circuit,
+    pub compute: GateCircuit,
     /// By channel: compare, flip, undo the comparison.
-    pub flips: Vec<Circuit>,
+    pub flips: Vec<GateCircuit>,
     /// From colours back to path indices alone.
-    pub uncompute: Circuit,
+    pub uncompute: GateCircuit,
     /// A replacement for the gates of compute and uncompute, if these are too many to be held in
     /// memory.
     pub(super) streamed: Option<Box<Streamed>>,
@@ -39,8 +39,8 @@ impl OracleCircuits {
     /// Lowers an oracle to gates: compute, all channels' flips one after another, uncompute.
     ///
     /// If the registers have more than [`OracleCircuits::MOST_BITS`] bits, the gates of compute and
-    /// uncompute are not held: [`Circuit::gates`] is empty, and the gates machine lowers operations
-    /// as it runs them.
+    /// uncompute are not held: [`GateCircuit::gates`] is empty, and the gates machine lowers
+    /// operations as it runs them.
     pub fn new(oracle: &Oracle) -> Self {
         let widths = oracle.program.registers.iter();
         let bits: u64 = widths.map(|register| u64::from(register.width)).sum();
@@ -124,7 +124,7 @@ impl OracleCircuits {
 }
 
 /// The qubits of a register after `compute`; none if it holds none.
-pub(in crate::path_machines) fn qubits(compute: &Circuit, register: RegisterId) -> &[Qubit] {
+pub(in crate::path_machines) fn qubits(compute: &GateCircuit, register: RegisterId) -> &[Qubit] {
     let mut held = compute.outputs.iter();
     held.find(|(id, _)| *id == register)
         .map_or(&[], |(_, qubits)| qubits)
@@ -132,7 +132,11 @@ pub(in crate::path_machines) fn qubits(compute: &Circuit, register: RegisterId) 
 
 /// Name of the register of `program` that a qubit belongs to after `compute`; `an ancilla` if there
 /// is none.
-pub(in crate::path_machines) fn name(compute: &Circuit, program: &Program, qubit: Qubit) -> String {
+pub(in crate::path_machines) fn name(
+    compute: &GateCircuit,
+    program: &Program,
+    qubit: Qubit,
+) -> String {
     let mut held = compute.outputs.iter();
     let register = held.find(|(_, qubits)| qubits.contains(&qubit));
     register.map_or_else(
@@ -145,7 +149,7 @@ pub(in crate::path_machines) fn name(compute: &Circuit, program: &Program, qubit
 mod tests {
     use super::*;
     use crate::path_machines::{Defect, OracleMachine};
-    use qrt_core::oracle::Options;
+    use qrt_core::oracle::OracleOptions;
     use qrt_scene::front::parse;
 
     const ROOM: &str = "
@@ -182,7 +186,7 @@ sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }] }
     #[test]
     fn gates_that_are_not_held_compute_what_those_held_do() {
         let scene = parse(ROOM, "room.yaml", &[], "".as_ref()).unwrap().valid;
-        let oracle = Oracle::rgb(&scene, Options::default());
+        let oracle = Oracle::rgb(&scene, OracleOptions::default());
         let oracle = Arc::new(oracle.unwrap());
         let [held, streamed] = [true, false].map(|held| OracleCircuits::lowered(&oracle, held));
         assert!(held.compute.gates.len() > 10_000);

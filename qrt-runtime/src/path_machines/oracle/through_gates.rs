@@ -1,32 +1,114 @@
 //! Runs blocks of paths through the gates: compute, read, uncompute, check every qubit.
 
 use super::parts::Streamed;
-use super::{Defect, OracleBlock, OracleCircuits, OracleMachine, word_of};
+use super::reading::Reading;
+use super::{Defect, OracleBlock, OracleCircuits, word_of};
+use crate::memory::{QUBITS_OF_ONE_TURN, bytes_of_rows, bytes_of_templates};
+use crate::path_machines::pool::Pool;
 use qrt_circuit::lower::{self, Templates};
-use qrt_circuit::{Qubit, Word};
-use qrt_machines::Span;
-use qrt_machines::{Gates, Queue, Rows, Template};
+use qrt_circuit::{Operand, Program, Qubit, Word};
+use qrt_core::oracle::Oracle;
+use qrt_machines::{GatesMachine, PixelLanes, Queue, Rows, Template};
+use std::num::NonZeroUsize;
 use std::ops::Range;
+use std::sync::PoisonError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Number of gates of a streamed circuit that run together.
 const AT_ONCE: usize = 1 << 14;
 
-impl OracleMachine {
-    /// Runs a block's paths, divided among `rows`.
-    pub(super) fn run_gates(
+/// The reading gate by gate.
+pub(super) struct GatesReading {
+    gates: GatesMachine,
+    /// `at_once` rows for a block of paths, and at most `room` bytes of templates for operations
+    /// whose gates are not held in memory.
+    rows: Pool<(Vec<Rows>, Templates<Template>)>,
+    at_once: usize,
+    room: usize,
+    parts: OracleCircuits,
+}
+
+impl GatesReading {
+    pub(super) fn new(parts: OracleCircuits) -> Result<Self, Defect> {
+        let mut circuits = vec![&parts.compute];
+        circuits.extend(&parts.flips);
+        circuits.push(&parts.uncompute);
+        let mut gates = GatesMachine::new(&circuits)?;
+        let (mut at_once, mut room) = (1, 0);
+        if parts.streamed.is_some() {
+            let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+            let bytes = bytes_of_rows(threads, parts.compute.qubits);
+            gates = gates.for_many_rows(bytes);
+            at_once = gates.rows_at_once(bytes);
+            room = bytes_of_templates(threads, parts.compute.qubits);
+        }
+        Ok(Self {
+            gates,
+            rows: Pool::new(),
+            at_once,
+            room,
+            parts,
+        })
+    }
+
+    pub(super) fn parts(&self) -> &OracleCircuits {
+        &self.parts
+    }
+}
+
+impl Reading for GatesReading {
+    fn paths_at_once(&self) -> usize {
+        self.at_once * self.gates.lanes()
+    }
+
+    fn block_length(&self) -> usize {
+        self.paths_at_once()
+    }
+
+    fn run(
         &self,
-        gates: &Gates,
-        parts: &OracleCircuits,
+        oracle: &Oracle,
+        outputs: &[Operand],
+        block: &mut OracleBlock,
+        spans: (&[PixelLanes<'_>], Option<&AtomicBool>),
+    ) -> Result<(), Defect> {
+        let large = self.parts.streamed.as_ref();
+        let large = large.filter(|_| self.parts.compute.qubits > QUBITS_OF_ONE_TURN);
+        let turn = large.map(|streamed| &streamed.turn);
+        let _turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
+        self.rows.lend(
+            || {
+                let rows = (0..self.at_once).map(|_| self.gates.rows()).collect();
+                (rows, Templates::with_room(self.room))
+            },
+            |own| self.run_gates(oracle, outputs, own, block, spans),
+        )
+    }
+
+    /// All qubits can be read.
+    fn read_words(&mut self, _program: &Program, _words: &[Word]) {}
+
+    fn circuits(&self) -> Option<&OracleCircuits> {
+        Some(&self.parts)
+    }
+}
+
+impl GatesReading {
+    /// Runs a block's paths, divided among `rows`.
+    fn run_gates(
+        &self,
+        oracle: &Oracle,
+        outputs: &[Operand],
         (rows, templates): &mut (Vec<Rows>, Templates<Template>),
         block: &mut OracleBlock,
-        (spans, cancel): (&[Span<'_>], Option<&AtomicBool>),
+        (spans, cancel): (&[PixelLanes<'_>], Option<&AtomicBool>),
     ) -> Result<(), Defect> {
+        let Self { gates, parts, .. } = self;
         let lanes = gates.lanes();
         let count = block.ids.len();
         let rows = &mut rows[..count.div_ceil(lanes)];
-        let id = parts.register(self.oracle.id).to_vec();
-        let nearest = self.oracle.nearest;
+        let id = parts.register(oracle.id).to_vec();
+        let nearest = oracle.nearest;
         let hit = nearest.map_or(Vec::new(), |hit| parts.register(hit).to_vec());
         let mut hits = block.hits.chunks(lanes);
         let shares = rows.iter_mut().zip(block.ids.chunks(lanes)).enumerate();
@@ -38,7 +120,7 @@ impl OracleMachine {
         }
         let values = &mut block.values;
         let read = |rows: &[Rows]| {
-            for (output, values) in self.outputs.iter().zip(values) {
+            for (output, values) in outputs.iter().zip(values) {
                 let Some(word) = word_of(*output) else {
                     continue;
                 };
@@ -69,7 +151,7 @@ impl OracleMachine {
         for (number, (rows, ids)) in shares {
             let inputs = [(&id[..], ids), (&hit, hits.next().unwrap_or_default())];
             let path = |lane| (block.pixel_of(number * lanes + lane), ids[lane]);
-            check(rows, &inputs, path, |qubit| parts.name(&self.oracle, qubit))?;
+            check(rows, &inputs, path, |qubit| parts.name(oracle, qubit))?;
         }
         Ok(())
     }
@@ -81,7 +163,7 @@ impl Streamed {
     fn run_templates(
         &self,
         cancel: Option<&AtomicBool>,
-        gates: &Gates,
+        gates: &GatesMachine,
         (rows, templates): (&mut [Rows], &mut Templates<Template>),
         read: impl FnOnce(&[Rows]),
     ) -> Result<(), Defect> {
@@ -158,13 +240,13 @@ pub(in crate::path_machines) fn check(
 }
 
 /// Returns the parts of `spans` that lie within `lanes`.
-fn part_of_spans<'a>(spans: &[Span<'a>], lanes: Range<usize>) -> Vec<Span<'a>> {
+fn part_of_spans<'a>(spans: &[PixelLanes<'a>], lanes: Range<usize>) -> Vec<PixelLanes<'a>> {
     let mut first = 0;
     let parts = spans.iter().map(|span| {
         let end = first + span.lanes;
         let part = first.max(lanes.start)..end.min(lanes.end);
         first = end;
-        Span {
+        PixelLanes {
             lanes: part.len(),
             parameters: span.parameters,
         }
@@ -182,7 +264,7 @@ mod tests {
         let of = |lanes: [usize; 3]| {
             let spans = lanes.into_iter().zip(words);
             let spans = spans.filter(|(lanes, _)| *lanes > 0);
-            let spans = spans.map(|(lanes, parameters)| Span { lanes, parameters });
+            let spans = spans.map(|(lanes, parameters)| PixelLanes { lanes, parameters });
             spans.collect::<Vec<_>>()
         };
         let all = of([3, 4, 1]);

@@ -2,7 +2,7 @@
 
 use super::{Atom, Canon, Product, Sum, is_integer};
 use crate::expr::arena::Arena;
-use crate::expr::{Expr, Id, Node};
+use crate::expr::{Expr, ExprNode, Id};
 
 /// The sum as an expression; `None` if one of its numbers is not finite.
 pub(super) fn write(canon: &Canon, root: &Sum) -> Option<Expr> {
@@ -54,16 +54,16 @@ impl Writer<'_> {
         let node = match atom {
             Atom::Number(_) => return None,
             Atom::Sum(sum) => return self.sum(sum),
-            Atom::Variable(variable) => Node::Variable(*variable),
-            Atom::Abs(inner) => Node::Abs(self.written[*inner]?),
-            Atom::Function(f, operand) => Node::Function(*f, self.sum(operand)?),
-            Atom::Pow(a, b) => Node::Pow(self.sum(a)?, self.sum(b)?),
-            Atom::Min(a, b) => Node::Min(self.sum(a)?, self.sum(b)?),
-            Atom::Max(a, b) => Node::Max(self.sum(a)?, self.sum(b)?),
-            Atom::Atan2(a, b) => Node::Atan2(self.sum(a)?, self.sum(b)?),
+            Atom::Variable(variable) => ExprNode::Variable(*variable),
+            Atom::Abs(inner) => ExprNode::Abs(self.written[*inner]?),
+            Atom::Function(f, operand) => ExprNode::Function(*f, self.sum(operand)?),
+            Atom::Pow(a, b) => ExprNode::Pow(self.sum(a)?, self.sum(b)?),
+            Atom::Min(a, b) => ExprNode::Min(self.sum(a)?, self.sum(b)?),
+            Atom::Max(a, b) => ExprNode::Max(self.sum(a)?, self.sum(b)?),
+            Atom::Atan2(a, b) => ExprNode::Atan2(self.sum(a)?, self.sum(b)?),
             Atom::IfLess(parts) => {
                 let [a, b, x, y] = &**parts;
-                Node::IfLess(self.sum(a)?, self.sum(b)?, self.sum(x)?, self.sum(y)?)
+                ExprNode::IfLess(self.sum(a)?, self.sum(b)?, self.sum(x)?, self.sum(y)?)
             }
         };
         Some(self.arena.push(node))
@@ -82,7 +82,7 @@ impl Writer<'_> {
                     .collect();
                 let number = self.arena.number(size);
                 let signs = self.sum(&signs)?;
-                return Some(self.arena.push(Node::Mul(number, signs)));
+                return Some(self.arena.push(ExprNode::Mul(number, signs)));
             }
         }
         // A positive term first spares a sign.
@@ -98,9 +98,9 @@ impl Writer<'_> {
             let size = Product::new(term.coefficient.abs(), term.factors.clone());
             let size = self.product(&size)?;
             total = self.arena.push(if term.coefficient < 0.0 {
-                Node::Sub(total, size)
+                ExprNode::Sub(total, size)
             } else {
-                Node::Add(total, size)
+                ExprNode::Add(total, size)
             });
         }
         Some(total)
@@ -138,11 +138,11 @@ impl Writer<'_> {
                 side.push(base);
             } else if is_integer(whole) && whole < i32::MAX.into() {
                 if whole != 0.0 {
-                    side.push(self.arena.push(Node::Powi(base, whole as i32)));
+                    side.push(self.arena.push(ExprNode::Powi(base, whole as i32)));
                 }
             } else {
                 let exponent = self.arena.number(whole);
-                side.push(self.arena.push(Node::Pow(base, exponent)));
+                side.push(self.arena.push(ExprNode::Pow(base, exponent)));
             }
         }
         if !coefficient.is_finite() || coefficient == 0.0 {
@@ -150,7 +150,7 @@ impl Writer<'_> {
         }
         for (roots, side) in [(root_above, &mut above), (root_below, &mut below)] {
             if let Some(product) = self.chain(&roots) {
-                side.push(self.arena.push(Node::Sqrt(product)));
+                side.push(self.arena.push(ExprNode::Sqrt(product)));
             }
         }
         let below = self.chain(&below);
@@ -165,13 +165,13 @@ impl Writer<'_> {
             None => self.arena.number(coefficient),
         };
         if let Some(below) = below {
-            value = self.arena.push(Node::Div(value, below));
+            value = self.arena.push(ExprNode::Div(value, below));
         }
-        if coefficient == -1.0 && !matches!(self.arena.node(value), Node::Number(_)) {
-            let signed = matches!(self.arena.node(value), Node::Div(a, _)
-                if matches!(self.arena.node(a), Node::Number(_)));
+        if coefficient == -1.0 && !matches!(self.arena.node(value), ExprNode::Number(_)) {
+            let signed = matches!(self.arena.node(value), ExprNode::Div(a, _)
+                if matches!(self.arena.node(a), ExprNode::Number(_)));
             if !signed {
-                value = self.arena.push(Node::Neg(value));
+                value = self.arena.push(ExprNode::Neg(value));
             }
         }
         Some(value)
@@ -180,7 +180,7 @@ impl Writer<'_> {
     fn chain(&mut self, factors: &[Id]) -> Option<Id> {
         let (first, rest) = factors.split_first()?;
         Some(rest.iter().fold(*first, |product, id| {
-            self.arena.push(Node::Mul(product, *id))
+            self.arena.push(ExprNode::Mul(product, *id))
         }))
     }
 }

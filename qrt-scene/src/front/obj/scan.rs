@@ -1,6 +1,7 @@
 //! Checks an OBJ file, statement by statement, as `tobj` reads it.
 
-use super::{Faces, ObjError, name, numbers, split, statements, tokens};
+use super::{Faces, FileError, name, numbers, split, statements, tokens};
+use crate::scene::meshes::FilePlace;
 use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
@@ -12,9 +13,9 @@ const READ: &str = "v vt vn f mtllib usemtl";
 /// Statements that have no part in a mesh's shape.
 const IGNORED: &str =
     "o g s mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
-/// Statements that are refused, because their shapes would be missing.
-const CURVED: &str =
-    "cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
+/// Statements whose shapes are left out: lines, points, curves and curved surfaces.
+const SHAPELESS: &str =
+    "l p cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
 
 /// The kinds of elements that corners refer to.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
@@ -35,9 +36,11 @@ pub(super) struct Scanner<'a> {
     /// The statement that is being read.
     pending: VecDeque<u8>,
     /// The error: the reader of this stream sees only that there is one.
-    pub(super) fault: Option<ObjError>,
+    pub(super) fault: Option<FileError>,
     /// The line of each face, and the index in `uses` of its material.
     pub(super) faces: Vec<(usize, Option<usize>)>,
+    /// The first statement whose shape is left out, and its line.
+    pub(super) shapeless: Option<(String, usize)>,
     /// Names after `usemtl`, with their lines.
     pub(super) uses: Vec<(String, usize)>,
     /// Names after `mtllib`, with their lines.
@@ -53,7 +56,7 @@ impl Read for Scanner<'_> {
                 break;
             };
             let checked = self.statement(line, &statement);
-            read = checked.map_err(|what| ObjError::new(what, self.path, line));
+            read = checked.map_err(|what| FileError::new(what, self.path, line));
         }
         if let Err(fault) = read {
             self.fault = Some(fault);
@@ -76,6 +79,7 @@ impl<'a> Scanner<'a> {
             pending: VecDeque::new(),
             fault: None,
             faces: Vec::new(),
+            shapeless: None,
             uses: Vec::new(),
             libraries: Vec::new(),
         }
@@ -86,14 +90,9 @@ impl<'a> Scanner<'a> {
         let is_in = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
         match keyword {
             "v" => self.vertex(rest)?,
-            "vt" => {
-                self.counts[1] += 1;
-                counted(keyword, rest, 1, 3)?;
-            }
-            "vn" => {
-                self.counts[2] += 1;
-                counted(keyword, rest, 3, 3)?;
-            }
+            // No picture depends on their numbers.
+            "vt" => self.counts[1] += 1,
+            "vn" => self.counts[2] += 1,
             "f" | "fo" => self.face(line, rest)?,
             "mtllib" | "usemtl" if !self.wants_materials => {}
             "mtllib" => {
@@ -104,12 +103,10 @@ impl<'a> Scanner<'a> {
                 let name = name(keyword, rest, MeshFile::NamelessUse)?;
                 self.uses.push((name, line));
             }
-            "l" => return Err(MeshFile::Lines),
-            "p" => return Err(MeshFile::Points),
             _ if is_in(IGNORED) => {}
-            _ if is_in(CURVED) => {
-                let keyword = keyword.to_owned();
-                return Err(MeshFile::FreeForm { keyword });
+            _ if is_in(SHAPELESS) => {
+                let first = || (keyword.to_owned(), line);
+                self.shapeless.get_or_insert_with(first);
             }
             _ => {
                 let known = READ.split(' ').chain(IGNORED.split(' '));
@@ -130,14 +127,19 @@ impl<'a> Scanner<'a> {
         self.pending.push_back(b'\n');
     }
 
-    /// Reads `v x y z`, `v x y z w` or `v x y z r g b`, and drops the colours.
+    /// Reads `v x y z`, `v x y z w`, `v x y z r g b` or `v x y z r g b a`, and drops the colours.
     fn vertex(&mut self, rest: &str) -> Result<(), MeshFile> {
-        let kept = match counted("v", rest, 3, 6)?[..] {
-            [x, y, z, w] if (DVec3::new(x, y, z) / w).is_finite() => 4,
-            [_, _, _, weight] => return Err(MeshFile::Weight { weight }),
-            [_, _, _, _, _] => return Err(MeshFile::FiveNumbers),
-            _ => 3,
+        let given = tokens(rest).count();
+        let kept = match given {
+            3 | 6 | 7 => 3,
+            4 => 4,
+            _ => return Err(MeshFile::VertexCount { given }),
         };
+        if let [x, y, z, weight] = numbers(rest, kept, false)?[..]
+            && !(DVec3::new(x, y, z) / weight).is_finite()
+        {
+            return Err(MeshFile::Weight { weight });
+        }
         self.counts[0] += 1;
         let most = 3 * self.most.left;
         if self.counts[0] > most as i64 {
@@ -199,31 +201,21 @@ impl<'a> Scanner<'a> {
     }
 
     /// Makes the checks that are possible only at the end.
-    fn finish(&self) -> Result<(), ObjError> {
+    fn finish(&self) -> Result<(), FileError> {
         for ((count, kind), (index, line)) in self.counts.into_iter().zip(KINDS).zip(self.greatest)
         {
             if index > count {
                 let what = MeshFile::Beyond { kind, index, count };
-                return Err(ObjError::new(what, self.path, line));
+                return Err(FileError::new(what, self.path, line));
             }
         }
         if self.faces.is_empty() {
-            return Err(ObjError::new(MeshFile::NoFaces, self.path, None));
+            return Err(FileError::new(
+                MeshFile::NoFaces,
+                self.path,
+                FilePlace::Whole,
+            ));
         }
         Ok(())
     }
-}
-
-/// The numbers of a statement that takes `least` to `most` of them.
-fn counted(keyword: &str, rest: &str, least: usize, most: usize) -> Result<Vec<f64>, MeshFile> {
-    let numbers = numbers(rest, most + 1, false)?;
-    if (least..=most).contains(&numbers.len()) {
-        return Ok(numbers);
-    }
-    Err(MeshFile::Count {
-        keyword: keyword.to_owned(),
-        least,
-        most,
-        given: tokens(rest).count(),
-    })
 }

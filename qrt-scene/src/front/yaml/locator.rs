@@ -12,9 +12,15 @@ pub(super) struct Locator<'a> {
     number: u32,
     /// The start of each line; a line ends in LF, CR LF or CR, as in YAML.
     lines: Vec<usize>,
-    /// The last result (line, column, byte): events mostly come in order, so long lines are walked
-    /// once.
-    last: (usize, usize, usize),
+    /// The last result: events mostly come in order, so long lines are walked once.
+    last: Position,
+}
+
+/// A place in the text, by line, column and byte.
+struct Position {
+    line: usize,
+    column: usize,
+    byte: usize,
 }
 
 impl<'a> Locator<'a> {
@@ -27,16 +33,20 @@ impl<'a> Locator<'a> {
             base,
             number,
             lines,
-            last: (1, 0, 0),
+            last: Position {
+                line: 1,
+                column: 0,
+                byte: 0,
+            },
         }
     }
 
     /// Returns the byte in `text` of a marker; past the end, the end.
     pub(super) fn offset(&mut self, marker: &Marker) -> usize {
         let (line, column) = (marker.line().max(1), marker.col());
-        let (last_line, last_column, last_byte) = self.last;
-        let (mut at, skip) = if line == last_line && column >= last_column {
-            (last_byte, column - last_column)
+        let last = &self.last;
+        let (mut at, skip) = if line == last.line && column >= last.column {
+            (last.byte, column - last.column)
         } else {
             (
                 self.lines.get(line - 1).copied().unwrap_or(self.text.len()),
@@ -48,7 +58,11 @@ impl<'a> Locator<'a> {
             .take(skip)
             .map(char::len_utf8)
             .sum::<usize>();
-        self.last = (line, column, at);
+        self.last = Position {
+            line,
+            column,
+            byte: at,
+        };
         at
     }
 

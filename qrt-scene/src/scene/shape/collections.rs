@@ -2,7 +2,7 @@
 
 use super::{Expression, LARGEST, Number, Shape, number};
 use crate::scene::text::Data;
-use crate::syntax::tree::{Entry, Found, Node, Value};
+use crate::syntax::tree::{Entry, Found, Kind, Node, Value};
 use crate::syntax::{Datum, Expected, Material, Place, Problems, Structure, What};
 use glam::DVec3;
 
@@ -64,6 +64,40 @@ fn list_schema(items: Data, least: usize, most: Option<usize>) -> Data {
         schema = schema.with("maxItems", Data::Number(most as f64));
     }
     schema
+}
+
+/// A colour: red, green and blue, or one number, which is grey.
+pub(crate) struct Colour(pub(crate) Number);
+
+impl Shape for Colour {
+    type Value = [f64; 3];
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> [f64; 3] {
+        if !matches!(&node.value, Value::Scalar(scalar) if matches!(scalar.kind(), Kind::Number(_)))
+        {
+            return Array::<_, 3>(self.0).decode(node, at, problems);
+        }
+        let value = self.0.decode(node, at, problems);
+        let before = problems.count();
+        // One number out of range is one problem, not one of each channel.
+        self.0.check(&value, at, problems);
+        if problems.count() > before {
+            return self.fallback();
+        }
+        [value; 3]
+    }
+    fn fallback(&self) -> [f64; 3] {
+        [self.0.fallback(); 3]
+    }
+    fn check(&self, value: &[f64; 3], at: &Place<'_>, problems: &mut Problems) {
+        Array::<_, 3>(self.0).check(value, at, problems);
+    }
+    fn encode(&self, value: &[f64; 3]) -> Option<Data> {
+        Array::<_, 3>(self.0).encode(value)
+    }
+    fn schema(&self) -> Data {
+        let shapes = vec![Array::<_, 3>(self.0).schema(), self.0.schema()];
+        Data::map([("anyOf", Data::List(shapes))])
+    }
 }
 
 /// Three numbers as a vector.

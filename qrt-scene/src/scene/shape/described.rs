@@ -2,14 +2,28 @@
 
 use crate::scene::text::Data;
 
+/// A key of a record, for the record's schema.
+pub(crate) struct FieldSchema<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) doc: &'a str,
+    pub(crate) is_required: bool,
+    /// The schema of the key's value.
+    pub(crate) shape: Data,
+    pub(crate) default: Option<Data>,
+}
+
 /// Returns the schema of a record: its keys, the required ones, and no others.
-pub(crate) fn record_schema(
-    doc: &str,
-    fields: Vec<(&str, &str, bool, Data, Option<Data>)>,
-) -> Data {
+pub(crate) fn record_schema(doc: &str, fields: Vec<FieldSchema<'_>>) -> Data {
     let mut properties = Vec::new();
     let mut required = Vec::new();
-    for (name, doc, is_required, shape, default) in fields {
+    for field in fields {
+        let FieldSchema {
+            name,
+            doc,
+            is_required,
+            shape,
+            default,
+        } = field;
         let mut schema = described(doc, shape);
         if let Some(default) = default {
             schema = schema.with("default", default);
@@ -30,6 +44,12 @@ pub(crate) fn record_schema(
         schema.with("required", Data::List(required))
     };
     schema.with("additionalProperties", Data::Bool(false))
+}
+
+/// Returns the schema of a record that has exactly one of `keys`.
+pub(crate) fn one_of(schema: Data, keys: &[&str]) -> Data {
+    let requires = |key: &&str| Data::map([("required", Data::List(vec![Data::text(*key)]))]);
+    schema.with("oneOf", Data::List(keys.iter().map(requires).collect()))
 }
 
 /// Returns the schema of a variant: a map with exactly one of the keys.

@@ -9,6 +9,10 @@ problems! {
             help "remove it; the maps of reflected rays start with the second entry";
         PrimaryLight = PRIMARY_LIGHT "the primary ray leaves no surface that a lamp could light"
             help "remove it; the second entry's ray leaves the first surface";
+        NoLens = NO_LENS "the camera has no lens on which a point is sampled"
+            help "remove it, or give a perspective camera a `lens`";
+        ReflectedLens = NO_LENS "only the primary ray starts on the lens"
+            help "remove it; the lens belongs to the first entry";
         TooManyDepths { dimensions: usize, most: usize } = TOO_MANY_DIMENSIONS
             "the depths need {dimensions} dimensions: the net has {most}"
             help "use fewer depths, or `product-lattice`";
@@ -21,7 +25,6 @@ problems! {
         LightUnbounded { surface: String } = LIGHT_UNBOUNDED
             "no bound of next-event estimation can be shown: a lamp may touch a surface of `{surface}`"
             help "write `mis`, whose weights never pass 1, or `auto`";
-        NoLamp = LIGHT_UNUSED "nothing emits: there is no lamp to sample" help "remove it";
         NoReceiver = LIGHT_UNUSED
             "no surface reflects to more than single directions and tells how densely: none can \
              sample a lamp" help "remove it";
@@ -106,6 +109,16 @@ problems! {
         TooManyFaces { faces: usize, most: usize } = TOO_MANY_FACES
             "the scene has {faces} faces, and tables of faces hold at most {most}"
             help "use a coarser mesh";
+        SphereInTable = SPHERE_IN_TABLE
+            "a search over the numbers of faces looks faces up in tables, which hold polygons alone"
+            help "search with `--visibility classical`, or draw the sphere as a mesh";
+        SmallSphere { fraction: u32, needed: u32 } = SMALL_SPHERE
+            "beside the size of the scene this sphere has too few of {fraction} fraction bits"
+            help { Some(if *needed <= 30 {
+                format!("set `precision.fraction: {needed}`, or draw what is large as a quad")
+            } else {
+                "draw what is large, such as a ground, as a quad in place of a sphere".to_owned()
+            }) };
     }
 }
 

@@ -13,7 +13,7 @@ use std::fmt;
 
 /// A problem in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Words {
+pub struct Description {
     /// The stable code of the problem: `QRT0101`.
     pub code: &'static str,
     /// The problem in one sentence, without a full stop.
@@ -66,9 +66,9 @@ macro_rules! problems {
         impl $concept {
             /// Returns the problem in words, for the author of a scene's text.
             #[allow(unused_variables, clippy::useless_format)]
-            pub fn description(&self) -> super::Words {
+            pub fn description(&self) -> super::Description {
                 match self {
-                    $( Self::$problem $({ $($argument),* })? => super::Words {
+                    $( Self::$problem $({ $($argument),* })? => super::Description {
                         code: code!($code),
                         message: text!($message),
                         label: text!($($label)?),
@@ -95,10 +95,10 @@ macro_rules! what {
 
         impl What {
             /// Returns the problem in words, for the author of a scene's text.
-            pub fn description(&self) -> Words {
+            pub fn description(&self) -> Description {
                 match self {
                     $( Self::$concept(what) => what.description(), )*
-                    Self::OfFile { what, place } => Words {
+                    Self::OfFile { what, place } => Description {
                         label: place.clone(),
                         ..what.description()
                     },
@@ -129,17 +129,17 @@ mod values;
 pub use circuit::{Circuit, Sampling};
 pub use expressions::{Bsdf, Expression, Mistake};
 pub use mesh_file::MeshFile;
-pub use objects::{Camera, Glass, Material, Mesh, Renderer, Shape, Triangles, Unlit};
+pub use objects::{Camera, Glass, Material, Mesh, Renderer, Shape, Sky, Triangles, Unlit};
 pub use text::{File, Override, Yaml};
 pub use values::{Datum, Expected, Range, Structure};
 
 what! {
-    File Yaml Override Structure Datum Material Renderer Unlit Camera Shape Glass Mesh MeshFile
+    File Yaml Override Structure Datum Material Renderer Unlit Camera Sky Shape Glass Mesh MeshFile
     Expression Bsdf Sampling Circuit
 }
 
 /// Writes the problem and the suggested fix in one line.
-impl fmt::Display for Words {
+impl fmt::Display for Description {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)?;
         let mut help = self.help.iter();

@@ -32,7 +32,7 @@ problems! {
     /// Problems with lamps that light nothing.
     Unlit {
         NoLamp = BLACK "nothing emits: every picture of this scene is black"
-            help "give a primitive an `emitter` material";
+            help "give a primitive an `emitter` material, or the scene a `sky`";
         LampsAway = BLACK
             "every lamp shines away from all that the camera sees: the picture is black"
             label "this lamp emits on its other side"
@@ -62,6 +62,18 @@ problems! {
         NoUp = CAMERA_UP "`up` is zero: it has no direction";
         UpAlongView = CAMERA_UP "`up` points along the view"
             help "choose an `up` across the view, such as [0, 0, 1]";
+    }
+
+    /// Problems with the sky.
+    Sky {
+        TwoSkies { key: &'static str } = SKY "`{key}` stands beside `radiance`, which is that of all directions"
+            help "keep either `radiance`, or both `horizon` and `zenith`" also "the radiance of all directions";
+        NoEnd { key: &'static str } = SKY "the sky's gradient has no `{key}`"
+            help "write both `horizon` and `zenith`, or one `radiance`";
+        NoSky = SKY "the sky has no radiance"
+            help "write `radiance: [1, 1, 1]`, or both `horizon` and `zenith`";
+        NoUp = SKY "the sky's `up` is zero: it has no direction"
+            help "leave it out for [0, 1, 0]";
     }
 
     /// Problems with a primitive's shape.

@@ -15,7 +15,7 @@ problems! {
         Denied = UNREADABLE "you may not read this file";
         Failed { why: String } = UNREADABLE "the file cannot be read: {why}";
         TooLarge { most: u64 } = TOO_LARGE { format!("the file is larger than {} MiB", most >> 20) }
-            help "put large geometry into OBJ meshes";
+            help "put large geometry into mesh files (OBJ, PLY, glTF)";
         NotUtf8 { byte: usize, line: usize } = NOT_UTF8
             "the file is not UTF-8 text: byte {byte}, on line {line}" help "save it as UTF-8";
     }
@@ -46,12 +46,12 @@ problems! {
             help "a value cannot contain itself";
         AliasBudget { most: usize } = ALIAS_BUDGET
             "aliases expand to more than {most} values by here"
-            help "put large geometry into OBJ meshes";
+            help "put large geometry into mesh files (OBJ, PLY, glTF)";
         AliasBytes { most: usize } = ALIAS_BUDGET
             { format!("aliases expand to more than {} MiB of text by here", most >> 20) }
             help "use shorter names and expressions, or fewer aliases";
         TooMany { most: usize } = TOO_LARGE "the scene holds more than {most} values by here"
-            help "put large geometry into OBJ meshes";
+            help "put large geometry into mesh files (OBJ, PLY, glTF)";
         TooDeep { most: usize } = TOO_DEEP "more than {most} levels of nesting"
             help "a scene needs fewer than ten";
     }

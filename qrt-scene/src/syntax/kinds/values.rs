@@ -22,6 +22,11 @@ problems! {
         MissingKeys { noun: &'static str, keys: Vec<&'static str> } = MISSING_KEY
             { format!("{noun} lacks {}", listed(keys, "and")) }
             label { format!("{} missing here", listed(keys, "and")) };
+        NoFile = MISSING_KEY "a mesh lacks its file" label "`obj`, `ply` or `gltf` missing here"
+            help "write `obj: mesh.obj`, `ply: mesh.ply` or `gltf: mesh.glb`";
+        SecondFile { first: &'static str, second: &'static str } = ONE_VARIANT
+            "a mesh has one file, found `{first}` and `{second}`"
+            help "write a mesh for each file" also "the other file";
         NotOneKind { noun: &'static str, count: usize, known: Option<String>, kinds: Names }
             = ONE_VARIANT "{noun} is of exactly one kind, found {count} keys"
             help { Some(match known {

@@ -31,10 +31,13 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
         problems: &mut problems,
         names: HashMap::new(),
         out: vec![],
+        balls: vec![],
+        spheres: HashSet::new(),
         files: BTreeSet::new(),
         unknown: 0,
         own_materials: HashMap::new(),
         is_full: false,
+        warnings: &mut Vec::new(),
     };
     build.quad(vertices, 0, &Path::root());
     let out = build.out;
@@ -50,6 +53,20 @@ fn a_quad_that_is_not_planar_splits_along_its_first_diagonal() {
     assert_eq!((parts[0].vertices, parts[0].corners), ([a, b, c, c], 3));
     assert_eq!((parts[1].vertices, parts[1].corners), ([a, c, d, d], 3));
     assert_eq!(built(&SQUARE).len(), 1);
+}
+
+#[test]
+fn the_first_of_spheres_in_one_place_hides_the_others() {
+    let text = "{ name: a, film: { width: 1, height: 1 }, sky: { radiance: 1 }, materials: { \
+        red: { lambertian: { albedo: 1 } }, glass: { dielectric: { ior: 1.5 } } }, geometry: [ \
+        sphere: { center: [0, 0, 1], radius: 1, material: red }, \
+        sphere: { center: [-0, 0, 1], radius: 1, material: glass }, \
+        sphere: { center: [0, 0, 1], radius: 2, material: glass } ], \
+        camera: { perspective: { eye: [0, 0, 9], target: [0, 0, 0], vfov: 40 } } }";
+    let scene = crate::scene::Scene::from_yaml(text, "spheres.yaml").unwrap();
+    let valid = crate::valid::validate(scene, &Meshes::default()).unwrap();
+    let kept: Vec<usize> = valid.balls().iter().map(|ball| ball.primitive).collect();
+    assert_eq!(kept, [0, 2]);
 }
 
 #[test]
@@ -149,11 +166,10 @@ proptest! {
         let turn = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
         let translate = DVec3::new(3.0, -4.0, 5.0);
         let mesh = Mesh {
-            obj: String::new(),
-            material: None,
             scale,
             rotate: degrees.into(),
             translate,
+            ..Mesh::default()
         };
         let expected = turn * (DVec3::from(point) * scale) + translate;
         let found = Transform::from_mesh(&mesh).apply(point.into());
@@ -174,4 +190,34 @@ fn quarter_turns_are_exact() {
     }
     let (sine, cosine) = sin_cos_degrees(30.0);
     assert!((sine - 0.5).abs() < 1e-15 && (cosine - 0.75f64.sqrt()).abs() < 1e-15);
+}
+
+/// A scene that is built in Rust can give a mesh no file, or several.
+#[test]
+fn a_mesh_has_one_file() {
+    let yaml = "{ name: a, film: { width: 1, height: 1 }, materials: {}, \
+         camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } }, \
+         geometry: [mesh: { obj: a.obj }] }";
+    let scene = crate::scene::Scene::from_yaml(yaml, "built.yaml").unwrap();
+    for ([obj, ply, gltf], expected, file, other) in [
+        ([false; 3], "QRT0121", None, None),
+        ([true, true, false], "QRT0124", Some("ply"), Some("obj")),
+        ([false, true, true], "QRT0124", Some("gltf"), Some("ply")),
+    ] {
+        let mut scene = scene.clone();
+        let Some(Geometry::Mesh(mesh)) = scene.geometry.first_mut() else {
+            panic!("the scene has no mesh");
+        };
+        let named = |is_named: bool| is_named.then(|| "a".to_owned());
+        [mesh.obj, mesh.ply, mesh.gltf] = [obj, ply, gltf].map(named);
+        let problems = crate::valid::validate(scene, &Meshes::default()).unwrap_err();
+        let [problem] = &problems[..] else {
+            panic!("{problems:?}");
+        };
+        assert_eq!(problem.code(), expected);
+        let place = Path::root().key("geometry").item(0).key("mesh");
+        let place_of = |key: Option<&str>| key.map_or_else(|| place.clone(), |key| place.name(key));
+        assert_eq!(problem.path(), Some(&place_of(file)));
+        assert_eq!(problem.also, other.map(|key| place.name(key).into()));
+    }
 }

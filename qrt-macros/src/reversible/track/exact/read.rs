@@ -2,7 +2,7 @@
 
 use super::{Exact, Known, Poly, Unknown};
 use crate::reversible::dim::{Dim, Linear};
-use crate::reversible::ir::{Bit, Number, NumberKind, Register};
+use crate::reversible::ir::{Bit, Entry, Number, NumberKind, Register};
 
 impl Exact {
     /// Returns the number of the word of all of a register's current bits.
@@ -27,6 +27,11 @@ impl Exact {
 
     /// Returns the lowest `width` bits of a number.
     pub(super) fn word(&mut self, number: &Number, width: usize) -> Known<Vec<Poly>> {
+        // The lowest bits of an entry are the same bits, by whatever number of them.
+        if let NumberKind::Entry(..) = &number.kind {
+            let name = self.computed(&number.kind)?;
+            return Ok(self.atoms.bits(&name, width));
+        }
         let own = self.width(&number.size.width)?;
         let mut bits = match &number.kind {
             NumberKind::Constant(units) => {
@@ -72,6 +77,18 @@ impl Exact {
             NumberKind::Product(a, b) => {
                 let (a, b) = (self.number(a)?, self.number(b)?);
                 format!("product {} {}", (&a).min(&b), (&a).max(&b))
+            }
+            NumberKind::Entry(table, entry) => {
+                let place = match &**entry {
+                    Entry::At(place) => self.known(place)?.to_string(),
+                    Entry::Of(place, width) => {
+                        let first = place.part.as_ref().map(|[first, _]| first.clone());
+                        let first = first.unwrap_or_else(|| 0.into());
+                        let bits = self.read(&place.register, &first, *width as usize)?;
+                        format!("of {}", self.atoms.word(&bits))
+                    }
+                };
+                format!("{} {place}", table.path)
             }
             NumberKind::Square(a) => {
                 let a = self.number(a)?;

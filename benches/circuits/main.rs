@@ -1,0 +1,17 @@
+//! Costs of the circuits: of a path tracer's oracle, and of the search for primary hits.
+//!
+//! Parts: `oracle`, `nearest`.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod nearest;
+mod oracle;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    common::run(&[("oracle", oracle::run), ("nearest", nearest::run)])
+}

@@ -1,0 +1,17 @@
+//! Throughput of the tracer in floating point, and the gain of light sampling.
+//!
+//! Parts: `speed`, `light`.
+
+// A bench that cannot run has nothing to report.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod light;
+mod speed;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    common::run(&[("speed", speed::run), ("light", light::run)])
+}

@@ -1,0 +1,295 @@
+//! The cost of a scene's circuit under each strategy: qubits against gates.
+
+use super::oracles::{Oracles, most_expensive_of};
+use super::{CallCost, Oracle, OracleError, OracleName, call_cost};
+use crate::compile::Strategy;
+use crate::tracer::PixelClass;
+use qrt_circuit::Cores;
+use qrt_circuit::lower::{self, OpFigures};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A way to lay out the circuit of a scene's channel, and the cost of one call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StrategyCost {
+    /// The uncomputation strategy.
+    pub strategy: Strategy,
+    /// Qubits and Toffolis of a call.
+    pub cost: CallCost,
+    /// Number of ANDs if measurements undo them.
+    pub and_measured: u64,
+    /// An estimate of the number of those ANDs that remain on the same qubits with ghosts: values that are
+    /// undone early are measured, and leave ghosts until they are computed again. See
+    /// [`lower::with_ghosts`].
+    pub and_with_ghosts: u64,
+}
+
+impl StrategyCost {
+    /// The name of the most expensive of the scene's oracles, and its cost.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn of_most_expensive(
+        oracles: &Oracles<'_>,
+        strategy: Strategy,
+    ) -> Result<(OracleName, Self), OracleError> {
+        let name = most_expensive_of(&oracles.costs_under(strategy)?).name;
+        let cost = oracles.layouts(name.channel, name.class).under(strategy)?;
+        Ok((name, cost))
+    }
+
+    /// The Pareto front of `costs`, the one with the fewest Toffolis first. No other beats one of
+    /// these in qubits without more Toffolis, or in Toffolis without more qubits.
+    pub fn front(mut costs: Vec<Self>) -> Vec<Self> {
+        costs.sort_by_key(|cost| (cost.cost.toffoli, cost.cost.qubits));
+        let mut least = u64::MAX;
+        costs.retain(|cost| {
+            let fewer = cost.cost.qubits < least;
+            least = least.min(cost.cost.qubits);
+            fewer
+        });
+        costs
+    }
+}
+
+/// The costs of one of a scene's oracles under strategies: see [`Oracles::layouts`].
+pub struct StrategyCosts<'a> {
+    oracles: &'a Oracles<'a>,
+    channel: usize,
+    class: PixelClass,
+}
+
+impl StrategyCosts<'_> {
+    /// The cost under `strategy`.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn under(&self, strategy: Strategy) -> Result<StrategyCost, OracleError> {
+        let (oracle, figures) = self.priced(strategy)?;
+        let whole = oracle.whole(0);
+        let left = lower::with_ghosts(&whole);
+        let (mut and_measured, mut and_with_ghosts) = (0, 0);
+        for (instruction, left) in whole.instructions.iter().zip(left) {
+            let costs = &figures[instruction.op as usize].costs;
+            let ands = costs[usize::from(instruction.inverse)].and_measured;
+            and_measured += ands;
+            and_with_ghosts += if left { ands } else { 0 };
+        }
+        Ok(StrategyCost {
+            strategy,
+            cost: call_cost::cost_by(&oracle, &figures),
+            and_measured,
+            and_with_ghosts,
+        })
+    }
+
+    /// The oracle under `strategy`, and the figures of its operations.
+    fn priced(&self, strategy: Strategy) -> Result<(Oracle, Vec<OpFigures>), OracleError> {
+        let recording = self.oracles.recording(self.class, strategy)?;
+        let oracle = recording.oracle_under(strategy, &[self.channel]);
+        let figures = call_cost::op_figures(&oracle, &mut recording.known());
+        Ok((oracle, figures))
+    }
+
+    fn cost(&self, strategy: Strategy) -> Result<CallCost, OracleError> {
+        let (oracle, figures) = self.priced(strategy)?;
+        Ok(call_cost::cost_by(&oracle, &figures))
+    }
+
+    /// The cost of each strategy in `of`, computed on all cores.
+    fn costs(&self, of: &[Strategy]) -> Result<Vec<(CallCost, Strategy)>, OracleError> {
+        let costs = Cores::All.map(of, 1, |&strategy| self.cost(strategy));
+        let costs = costs.into_iter().zip(of);
+        costs
+            .map(|(cost, &strategy)| Ok((cost?, strategy)))
+            .collect()
+    }
+
+    /// The strategy of [`Strategy::all`] with the fewest Toffolis on at most `qubits` qubits; the one with
+    /// the fewest qubits if all have more.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn cheapest(&self, qubits: u64) -> Result<Strategy, OracleError> {
+        let kept = self.cheapest_kept(qubits)?;
+        let without_garbage: Vec<Strategy> = Strategy::all_without_garbage().collect();
+        let anew: Vec<Strategy> = without_garbage.iter().map(|s| s.recomputing()).collect();
+        if let Some((cost, strategy)) = kept {
+            // Of the strategies that recompute, the one without scopes has few Toffolis, if not the fewest.
+            let few = self.cost(anew[0])?.toffoli;
+            if cost.toffoli <= few - few / 3 {
+                return Ok(strategy);
+            }
+        }
+        let rank = |(cost, _): &(CallCost, Strategy)| {
+            if cost.qubits <= qubits {
+                (0, cost.toffoli, cost.qubits)
+            } else {
+                (1, cost.qubits, cost.toffoli)
+            }
+        };
+        let mut all = self.costs(&anew)?;
+        let best = all.iter().chain(&kept).map(rank).min();
+        // Running inputs again frees more qubits, and saves no Toffolis.
+        let may_be_better = |one: &(CallCost, Strategy)| {
+            let fits = one.0.qubits <= qubits;
+            !fits && best.is_none_or(|best| best.0 == 1 || one.0.toffoli < best.1)
+        };
+        let again = without_garbage.iter().zip(&all);
+        let again = again.filter(|(_, one)| may_be_better(one));
+        let again: Vec<Strategy> = again.map(|(s, _)| s.running_again()).collect();
+        all.extend(self.costs(&again)?);
+        let best = all.into_iter().chain(kept).min_by_key(rank);
+        Ok(best.map_or(Strategy::SCOPED, |(_, strategy)| strategy))
+    }
+
+    /// The cheapest strategy that recomputes nothing, with its cost; none if none fits.
+    ///
+    /// [`Strategy::CHOICES`] are decided one after another. Partial decisions that cannot lead to the
+    /// cheapest are dropped: of the strategies with the same decisions, none has fewer Toffolis than the one
+    /// that takes no other choice, or many fewer qubits than the one that takes all others.
+    fn cheapest_kept(&self, most: u64) -> Result<Option<(CallCost, Strategy)>, OracleError> {
+        // The copies that a part makes before it is undone can outweigh the qubits that it frees, by a few.
+        let nearly = most.saturating_add(most / 16);
+        let mut known: BTreeMap<usize, CallCost> = BTreeMap::new();
+        let mut best: Option<(CallCost, Strategy)> = None;
+        // Choices taken, and choices still open.
+        let mut open = vec![(0, Strategy::CHOSEN - 1)];
+        let mut choices = 0..Strategy::CHOICES.len();
+        loop {
+            let wanted = open.iter().flat_map(|&(taken, free)| [taken, taken | free]);
+            let wanted: BTreeSet<usize> = wanted.filter(|bits| !known.contains_key(bits)).collect();
+            let strategies = wanted.iter().map(|&bits| Strategy::of_choices(bits));
+            let costs = self.costs(&strategies.collect::<Vec<_>>())?;
+            for (bits, (cost, strategy)) in wanted.into_iter().zip(costs) {
+                known.insert(bits, cost);
+                let is_better = |best: (CallCost, _)| {
+                    (cost.toffoli, cost.qubits) < (best.0.toffoli, best.0.qubits)
+                };
+                if cost.qubits <= most && best.is_none_or(is_better) {
+                    best = Some((cost, strategy));
+                }
+            }
+            open.retain(|(taken, free)| {
+                let least = known[taken];
+                least.qubits > most
+                    && best.is_none_or(|(cost, _)| least.toffoli < cost.toffoli)
+                    && known[&(taken | free)].qubits <= nearly
+            });
+            let Some(choice) = choices.next() else {
+                return Ok(best);
+            };
+            let bit = 1 << choice;
+            let decided = open.into_iter().map(|(taken, free)| (taken, free & !bit));
+            open = decided
+                .flat_map(|(taken, free)| [(taken, free), (taken | bit, free)])
+                .collect();
+        }
+    }
+}
+
+impl Oracles<'_> {
+    /// The layouts of the oracle of channel 0 red, 1 green or 2 blue, for pixels of `class`.
+    pub fn layouts(&self, channel: usize, class: PixelClass) -> StrategyCosts<'_> {
+        StrategyCosts {
+            oracles: self,
+            channel,
+            class,
+        }
+    }
+
+    /// The uncomputation strategy of the scene's circuits: under `uncompute: auto`, the cheapest one for
+    /// the most expensive oracle under which all oracles fit into `budget.qubits`. It is searched for
+    /// once per scene, and once for each [`Oracles::of_pixel`].
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn strategy(&self) -> Result<Strategy, OracleError> {
+        let scene = self.scene();
+        if let Some(strategy) = Strategy::from_uncompute(scene.scene().circuit.uncompute) {
+            return Ok(strategy);
+        }
+        if self.pixel().is_some() {
+            if let Some(strategy) = self.strategy.get() {
+                return Ok(*strategy);
+            }
+            let strategy = auto(self)?;
+            return Ok(*self.strategy.get_or_init(|| strategy));
+        }
+        let all = Strategy::all();
+        let cached = scene.strategy_cache().get();
+        if let Some(strategy) = cached.and_then(|&number| all.get(number)) {
+            return Ok(*strategy);
+        }
+        let strategy = auto(self)?;
+        if let Some(number) = all.iter().position(|one| *one == strategy) {
+            let _ = scene.strategy_cache().set(number);
+        }
+        Ok(strategy)
+    }
+}
+
+fn auto(oracles: &Oracles<'_>) -> Result<Strategy, OracleError> {
+    let budget = oracles.scene().scene().budget;
+    let Some(most) = budget.and_then(|budget| budget.qubits) else {
+        return Ok(Strategy::KEEP);
+    };
+    let keep = oracles.costs_under(Strategy::KEEP)?;
+    if CallCost::greatest(&keep).qubits <= most {
+        return Ok(Strategy::KEEP);
+    }
+    let name = most_expensive_of(&keep).name;
+    let layouts = oracles.layouts(name.channel, name.class);
+    let figures = |strategy| -> Result<(u64, u64), OracleError> {
+        let costs = oracles.costs_under(strategy)?;
+        let own = costs.iter().find(|cost| cost.name == name);
+        let own = own.map_or(0, |cost| cost.call.qubits);
+        Ok((own, CallCost::greatest(&costs).qubits))
+    };
+    fitting(most, |qubits| layouts.cheapest(qubits), figures)
+}
+
+/// The strategy that `cheapest` finds for `most` qubits, or for fewer until every oracle has at most `most`.
+/// `figures` are the qubits of the oracle that `cheapest` optimizes, and the most of any oracle. If not all
+/// oracles can fit, the result is the last strategy tried.
+fn fitting(
+    most: u64,
+    cheapest: impl Fn(u64) -> Result<Strategy, OracleError>,
+    figures: impl Fn(Strategy) -> Result<(u64, u64), OracleError>,
+) -> Result<Strategy, OracleError> {
+    let mut allowed = most;
+    loop {
+        let strategy = cheapest(allowed)?;
+        let (own, greatest) = figures(strategy)?;
+        let over = greatest.saturating_sub(most);
+        if over == 0 || own > allowed {
+            return Ok(strategy);
+        }
+        // Under another strategy, other oracles exceed this one by about the same number of qubits.
+        allowed = own.saturating_sub(over);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Another oracle may need more qubits than the one with the most Toffolis.
+    #[test]
+    fn a_strategy_fits_with_all_oracles() {
+        // By Toffolis: own qubits, and the most of any oracle.
+        let front = [(100, 103), (90, 94), (80, 81), (70, 70)];
+        let place = |strategy: Strategy| {
+            let front = Strategy::all().into_iter().take(front.len());
+            front.into_iter().position(|one| one == strategy).unwrap()
+        };
+        let cheapest = |qubits| {
+            let fits = front.iter().position(|(own, _)| *own <= qubits);
+            Ok(Strategy::all()[fits.unwrap_or(front.len() - 1)])
+        };
+        let figures = |strategy| Ok(front[place(strategy)]);
+        for (most, expected) in [(103, 0), (102, 1), (100, 1), (93, 2), (80, 3), (60, 3)] {
+            let found = fitting(most, cheapest, figures).unwrap();
+            assert_eq!(place(found), expected, "{most}");
+        }
+    }
+}

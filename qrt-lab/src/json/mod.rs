@@ -1,0 +1,20 @@
+//! A scene's figures as JSON: the records that `qrt ... --json` prints and that Python's methods return.
+//!
+//! Every record of a command has a `version`, which grows with a change of a key's meaning; new keys do
+//! not change it. The book's chapter on the command describes the keys.
+
+mod count;
+mod inspect;
+mod pareto;
+mod plan;
+mod simulate;
+mod trade;
+mod verify;
+
+pub use count::count;
+pub use inspect::{cost, inspect, oracle_cost, pixel_counts};
+pub use pareto::pareto;
+pub use plan::plan;
+pub use simulate::simulate;
+pub use trade::trade;
+pub use verify::{VerifyFigures, defect, verify};

@@ -1,0 +1,59 @@
+//! A pixel's complete counting circuit, run as amplitudes.
+
+use crate::simulate::Simulation;
+use qrt_scene::valid::ValidScene;
+use serde_json::{Value, json};
+
+/// Returns the outcomes of a pixel's simulated counting circuit, beside theory, and the estimate.
+pub fn simulate(scene: &ValidScene, one: &Simulation) -> Value {
+    let outcomes: Vec<Value> = one
+        .outcomes
+        .iter()
+        .map(|o| json!({ "y": o.y, "simulated": o.simulated, "theory": o.theory }))
+        .collect();
+    let drawn: Vec<Value> = one
+        .tally()
+        .iter()
+        .map(|(y, count)| json!({ "y": y, "count": count }))
+        .collect();
+    let (report, estimate) = (&one.report, &one.estimate);
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": scene.scene().name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "channel": one.name.channel_name(),
+        "class": one.name.class_name(),
+        "pixel": one.pixel.place,
+        "seed": one.pixel.seed,
+        "window": one.window.name(),
+        "good": one.good,
+        "total": one.total,
+        "scale": one.scale,
+        "qubits": {
+            "all": report.qubits,
+            "path": one.path_bits,
+            "comparator": one.comparator_bits,
+            "phase": one.phase_bits,
+            "work": one.work_qubits(),
+        },
+        "gates": report.gates,
+        "queries": report.queries,
+        "most_states": report.most_states,
+        "checks": report.checks,
+        "norm": report.norm,
+        "dropped": report.dropped,
+        "outcomes": outcomes,
+        "largest_difference": one.largest_difference(),
+        "drawn": drawn,
+        "estimate": {
+            "good": estimate.good,
+            "amplitude": estimate.amplitude,
+            "interval": [estimate.interval.0, estimate.interval.1],
+            "confidence": estimate.confidence,
+            "queries": estimate.queries,
+            "shots": estimate.shots,
+            "radiance": one.radiance(),
+        },
+    })
+}

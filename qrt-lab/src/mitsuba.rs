@@ -1,0 +1,410 @@
+//! Export of a scene to Mitsuba 3, so that an independent renderer can check qrt.
+//!
+//! The picture of qrt's scene is the expected value of Mitsuba's `path` integrator, if the
+//! integrator stops at the same depth and never by chance. The export states explicitly what
+//! Mitsuba does differently by default: every face is flat; surfaces other than dielectrics act on
+//! both sides; outside of glass there is vacuum, not air; a pixel is the mean over its square; the
+//! field of view is vertical.
+//!
+//! <https://mitsuba.readthedocs.io/en/stable/src/generated/plugins_bsdfs.html> and the pages beside it.
+//!
+//! ```
+//! use qrt_scene::front::parse;
+//! use qrt_lab::mitsuba::{Exported, export};
+//! let text = "
+//! name: sky
+//! camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
+//! film: { width: 4, height: 2 }
+//! materials: { sky: { emitter: { radiance: [0.25, 0.5, 1] } } }
+//! geometry:
+//!   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: sky }
+//! ";
+//! let scene = parse(text, "sky.yaml", &[], "".as_ref())?;
+//! let Exported { text, meshes } = export(&scene.valid, "sky")?;
+//! assert!(text.contains(r#"<rgb name="radiance" value="0.25, 0.5, 1"/>"#));
+//! // A lamp of four right angles needs no file.
+//! assert!(meshes.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use glam::DVec3;
+use qrt_drawing::escaped;
+use qrt_scene::syntax::{Path, Problem, Renderer};
+use qrt_scene::valid::{Polygon, Scatter, Surface, ValidScene};
+use qrt_scene::{Camera, Film, Rgb, Sky};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::fmt::{self, Write};
+
+/// Default number of paths of a pixel; `-D spp=N` of the command `mitsuba` overrides it.
+const SAMPLES: u32 = 256;
+/// Depth from which Mitsuba may end a path by chance: greater than the depth of any path.
+const NEVER: u32 = 1 << 20;
+/// Distance of Mitsuba's near clipping plane, as a fraction of the distance to the farthest point.
+const NEAR: f64 = 1e-6;
+
+/// A scene in Mitsuba's format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// The scene file: XML.
+    pub text: String,
+    /// The files that the scene file refers to, to be written into its folder.
+    pub meshes: Vec<MeshFile>,
+}
+
+/// The polygons of a material, as a binary PLY file, or the sky as a Portable Float Map.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshFile {
+    /// Name of the file, without a folder.
+    pub file: String,
+    /// Contents of the file.
+    pub bytes: Vec<u8>,
+}
+
+/// A material that Mitsuba does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("Mitsuba has no counterpart of the {kind} material `{name}`")]
+pub struct NoCounterpart {
+    /// Name of the material in the scene.
+    pub name: String,
+    /// `phong` or `bsdf`.
+    pub kind: &'static str,
+}
+
+impl NoCounterpart {
+    /// The problem at the material's place in the scene.
+    pub fn problem(&self) -> Problem {
+        let path = Path::root().key("materials").key(self.name.as_str());
+        let what = Renderer::NoCounterpart {
+            renderer: "Mitsuba",
+            name: self.name.clone(),
+            kind: self.kind,
+        };
+        Problem::new(path.key(self.kind), what)
+    }
+}
+
+/// Writes a scene for Mitsuba 3, version 3.0 or later, for a variant in linear RGB, for example
+/// `scalar_rgb` or `llvm_ad_rgb`. The mesh files are called `STEM.N.MATERIAL.ply`.
+///
+/// # Errors
+/// If a face has a material that Mitsuba lacks: a `phong` with a specular part, or a user-defined
+/// `bsdf`.
+pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
+    let depth = scene.scene().sampling.depths.len();
+    let mut text = format!(
+        r#"<?xml version="1.0" encoding="utf-8"?>
+<!-- Written by qrt {version}; rendered by: mitsuba -m scalar_rgb FILE -D spp=N -->
+<scene version="3.0.0">
+    <default name="spp" value="{SAMPLES}"/>
+    <default name="sampler" value="independent"/>
+    <default name="max_depth" value="{depth}"/>
+    <integrator type="path">
+        <integer name="max_depth" value="$max_depth"/>
+        <integer name="rr_depth" value="{NEVER}"/>
+    </integrator>
+{sensor}"#,
+        version = env!("CARGO_PKG_VERSION"),
+        sensor = sensor(scene),
+    );
+    let mut meshes = Vec::new();
+    if let Some(sky) = scene.scene().sky.filter(Sky::shines) {
+        text.push_str(&emitter(&sky, stem, &mut meshes));
+    }
+    let mut faces_of: Vec<Vec<&Polygon>> = vec![Vec::new(); scene.surfaces().len()];
+    for polygon in scene.polygons() {
+        if let Some(faces) = faces_of.get_mut(polygon.surface as usize) {
+            faces.push(polygon);
+        }
+    }
+    let used = scene.surfaces().iter().zip(&faces_of).enumerate();
+    for (index, (surface, faces)) in used.filter(|(_, (_, faces))| !faces.is_empty()) {
+        // Mitsuba samples the points of a rectangle as evenly as its sampler's numbers are
+        // distributed.
+        let is_lamp = |face: &&&Polygon| surface.emits() && is_parallelogram(face);
+        let (lamps, faces): (Vec<_>, Vec<_>) = faces.iter().partition(is_lamp);
+        let material = material(surface)?;
+        for lamp in lamps {
+            let shape = format!(
+                "    <shape type=\"rectangle\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n",
+                square_to(lamp)
+            );
+            text.push_str(&(shape + &material));
+        }
+        if faces.is_empty() {
+            continue;
+        }
+        let file = format!("{stem}.{}.{}.ply", index + 1, plain(&surface.name));
+        let shape = format!(
+            "    <shape type=\"ply\">\n        <string name=\"filename\" value=\"{}\"/>\n        \
+             <boolean name=\"face_normals\" value=\"true\"/>\n",
+            escaped(&file)
+        );
+        text.push_str(&(shape + &material));
+        meshes.push(MeshFile {
+            file,
+            bytes: ply(&faces),
+        });
+    }
+    for ball in scene.balls() {
+        let shape = format!(
+            "    <shape type=\"sphere\">\n        <point name=\"center\" value=\"{}\"/>\n        \
+             <float name=\"radius\" value=\"{}\"/>\n",
+            triple(ball.centre.to_array()),
+            Number(ball.radius)
+        );
+        let surface = &scene.surfaces()[ball.surface as usize];
+        text.push_str(&(shape + &material(surface)?));
+    }
+    text.push_str("</scene>\n");
+    Ok(Exported { text, meshes })
+}
+
+/// Rows of the picture of a sky: enough for bilinear interpolation to be off by less than 1e-5 of the
+/// greatest radiance.
+const SKY_ROWS: usize = 1024;
+
+/// Returns the XML of a sky. Mitsuba reads a gradient from a picture, which is added to `files`.
+fn emitter(sky: &Sky, stem: &str, files: &mut Vec<MeshFile>) -> String {
+    let [horizon, zenith] = sky.gradient();
+    if horizon == zenith {
+        return format!(
+            "    <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{}\"/></emitter>\n",
+            triple(horizon)
+        );
+    }
+    // A Portable Float Map: rows from the bottom to the top.
+    let mut bytes = format!("PF\n4 {SKY_ROWS}\n-1.0\n").into_bytes();
+    for row in (0..SKY_ROWS).rev() {
+        let height = (PI * (row as f64 + 0.5) / SKY_ROWS as f64).cos().max(0.0);
+        for _ in 0..4 {
+            for (horizon, zenith) in horizon.into_iter().zip(zenith) {
+                let value = horizon + height * (zenith - horizon);
+                bytes.extend((value as f32).to_le_bytes());
+            }
+        }
+    }
+    let file = format!("{stem}.sky.pfm");
+    // The picture's up is y.
+    let up = sky.up.normalize();
+    let side = if up.x.abs() < 0.5 { DVec3::X } else { DVec3::Z };
+    let x = (side - up * side.dot(up)).normalize();
+    let columns = [x, up, x.cross(up)];
+    let rows = (0..3).map(|row| {
+        let row = columns.map(|column| Number(column[row]).to_string());
+        row.join(" ") + " 0"
+    });
+    let rows: Vec<String> = rows.collect();
+    let text = format!(
+        "    <emitter type=\"envmap\">\n        <string name=\"filename\" value=\"{}\"/>\n        \
+         <transform name=\"to_world\"><matrix value=\"{} 0 0 0 1\"/></transform>\n    </emitter>\n",
+        escaped(&file),
+        rows.join(" ")
+    );
+    files.push(MeshFile { file, bytes });
+    text
+}
+
+/// Returns a name that is valid as a file name on every system.
+fn plain(name: &str) -> String {
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || c == '-' {
+            c
+        } else {
+            '_'
+        }
+    };
+    name.chars().take(40).map(plain).collect()
+}
+
+fn sensor(scene: &ValidScene) -> String {
+    let Film { width, height } = scene.scene().film;
+    let camera = &scene.scene().camera;
+    let (eye, target, up) = match camera {
+        Camera::Perspective(c) => (c.eye, c.target, c.up),
+        Camera::Orthographic(c) => (c.eye, c.target, c.up),
+    };
+    let farthest = scene
+        .extent()
+        .map(|corner| (corner - eye).length())
+        .fold(1.0, f64::max);
+    let (kind, view, scale) = match camera {
+        Camera::Perspective(camera) => {
+            let view = format!(
+                "        <string name=\"fov_axis\" value=\"y\"/>\n        \
+                 <float name=\"fov\" value=\"{}\"/>\n",
+                Number(camera.vfov)
+            );
+            match camera.lens {
+                None => ("perspective", view, String::new()),
+                Some(lens) => {
+                    let lens = format!(
+                        "{view}        <float name=\"aperture_radius\" value=\"{}\"/>\n        \
+                         <float name=\"focus_distance\" value=\"{}\"/>\n",
+                        Number(0.5 * lens.aperture),
+                        Number(lens.focus)
+                    );
+                    ("thinlens", lens, String::new())
+                }
+            }
+        }
+        Camera::Orthographic(camera) => {
+            // Mitsuba's film spans -1 to 1 in width.
+            let half = 0.5 * camera.height * f64::from(width) / f64::from(height);
+            let scale = format!("            <scale x=\"{0}\" y=\"{0}\"/>\n", Number(half));
+            ("orthographic", String::new(), scale)
+        }
+    };
+    format!(
+        r#"    <sensor type="{kind}">
+{view}        <float name="near_clip" value="{near}"/>
+        <float name="far_clip" value="{far}"/>
+        <transform name="to_world">
+{scale}            <lookat origin="{eye}" target="{target}" up="{up}"/>
+        </transform>
+        <sampler type="$sampler">
+            <integer name="sample_count" value="$spp"/>
+        </sampler>
+        <film type="hdrfilm">
+            <integer name="width" value="{width}"/>
+            <integer name="height" value="{height}"/>
+            <string name="pixel_format" value="rgb"/>
+            <string name="component_format" value="float32"/>
+            <rfilter type="box"/>
+        </film>
+    </sensor>
+"#,
+        near = Number(NEAR * farthest),
+        far = Number(2.0 * farthest),
+        eye = triple(eye.to_array()),
+        target = triple(target.to_array()),
+        up = triple(up.to_array()),
+    )
+}
+
+/// Returns whether a face is a parallelogram, up to rounding.
+fn is_parallelogram(face: &Polygon) -> bool {
+    let [v0, v1, v2, v3] = face.vertices;
+    face.corners == 4 && (v0 + v2 - v1 - v3).length() <= 1e-9 * (v2 - v0).length()
+}
+
+/// Returns the matrix, by rows, that maps the square from -1 to 1, whose normal is z, to a
+/// parallelogram.
+fn square_to(face: &Polygon) -> String {
+    let [v0, v1, _, v3] = face.vertices;
+    let (x, y) = (0.5 * (v1 - v0), 0.5 * (v3 - v0));
+    let columns = [x, y, x.cross(y).normalize(), v0 + x + y];
+    let rows = (0..3).map(|row| {
+        let row = columns.map(|column| Number(column[row]).to_string());
+        row.join(" ")
+    });
+    let rows: Vec<String> = rows.collect();
+    format!("{} 0 0 0 1", rows.join(" "))
+}
+
+/// Returns the XML of a surface's material and emitter, and the end tag of the shape.
+fn material(surface: &Surface) -> Result<String, NoCounterpart> {
+    let colour =
+        |name: &str, value: Rgb| format!(r#"<rgb name="{name}" value="{}"/>"#, triple(value));
+    let diffuse = |albedo: Rgb| {
+        format!(
+            r#"<bsdf type="diffuse">{}</bsdf>"#,
+            colour("reflectance", albedo)
+        )
+    };
+    let metal = |kind: &str, more: &str, reflectance: Rgb| {
+        format!(
+            r#"<bsdf type="{kind}"><string name="material" value="none"/>{more}{}</bsdf>"#,
+            colour("specular_reflectance", reflectance)
+        )
+    };
+    let none = |kind| NoCounterpart {
+        name: surface.name.clone(),
+        kind,
+    };
+    let two_sided = |bsdf: String| format!(r#"<bsdf type="twosided">{bsdf}</bsdf>"#);
+    let bsdf = match &surface.scatter {
+        Scatter::Black => two_sided(diffuse([0.0; 3])),
+        Scatter::Lambertian(matte) => two_sided(diffuse(matte.albedo)),
+        Scatter::Phong(phong) if phong.specular == [0.0; 3] => two_sided(diffuse(phong.diffuse)),
+        Scatter::Mirror(mirror) => two_sided(metal("conductor", "", mirror.reflectance)),
+        Scatter::Ggx(ggx) => {
+            let more = format!(
+                r#"<string name="distribution" value="ggx"/><float name="alpha" value="{}"/>"#,
+                Number(ggx.alpha)
+            );
+            two_sided(metal("roughconductor", &more, ggx.reflectance))
+        }
+        Scatter::Dielectric(glass) => format!(
+            r#"<bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="1"/></bsdf>"#,
+            Number(glass.ior)
+        ),
+        Scatter::Phong(_) => return Err(none("phong")),
+        Scatter::Custom(_) => return Err(none("bsdf")),
+    };
+    let mut text = format!("        {bsdf}\n");
+    if surface.emits() {
+        let radiance = colour("radiance", surface.radiance);
+        let _ = writeln!(text, r#"        <emitter type="area">{radiance}</emitter>"#);
+    }
+    text.push_str("    </shape>\n");
+    Ok(text)
+}
+
+fn triple(value: [f64; 3]) -> String {
+    let [x, y, z] = value.map(Number);
+    format!("{x}, {y}, {z}")
+}
+
+/// A number with all its digits: in scientific notation where many zeros would be needed otherwise.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 == 0.0 || (1e-5..1e16).contains(&self.0.abs()) {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
+        }
+    }
+}
+
+/// Writes a binary PLY file of triangles. Equal vertices are shared. A quad is split along v0 - v2.
+fn ply(faces: &[&Polygon]) -> Vec<u8> {
+    let mut vertices: Vec<DVec3> = Vec::new();
+    let mut numbers = HashMap::new();
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for face in faces {
+        let corners = &face.vertices[..usize::from(face.corners).min(4)];
+        let corners: Vec<u32> = corners
+            .iter()
+            .map(|corner| {
+                let key = corner.to_array().map(f64::to_bits);
+                *numbers.entry(key).or_insert_with(|| {
+                    vertices.push(*corner);
+                    (vertices.len() - 1) as u32
+                })
+            })
+            .collect();
+        if let Some((&first, rest)) = corners.split_first() {
+            triangles.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
+        }
+    }
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
+         property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        vertices.len(),
+        triangles.len()
+    )
+    .into_bytes();
+    for value in vertices.iter().flat_map(DVec3::to_array) {
+        bytes.extend(value.to_le_bytes());
+    }
+    for triangle in &triangles {
+        bytes.push(3);
+        for corner in triangle {
+            bytes.extend(corner.to_le_bytes());
+        }
+    }
+    bytes
+}

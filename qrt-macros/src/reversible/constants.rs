@@ -1,0 +1,66 @@
+//! The constants that a function is generic over.
+
+use super::dim::Linear;
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::ops::Deref;
+use syn::Ident;
+
+/// The constants of a function's generics, by name: each is a `u32`, or an `i32`, which is the type
+/// of the bits before a point.
+#[derive(Clone, Default)]
+pub(super) struct Constants {
+    names: Vec<Ident>,
+    signed: Vec<Ident>,
+}
+
+impl Deref for Constants {
+    type Target = [Ident];
+
+    fn deref(&self) -> &[Ident] {
+        &self.names
+    }
+}
+
+impl Constants {
+    pub(super) fn push(&mut self, name: &Ident, is_signed: bool) {
+        self.names.push(name.clone());
+        if is_signed {
+            self.signed.push(name.clone());
+        }
+    }
+
+    /// Returns these constants and others after them.
+    pub(super) fn followed_by(&self, others: &Self) -> Self {
+        let mut all = self.clone();
+        all.names.extend(others.names.iter().cloned());
+        all.signed.extend(others.signed.iter().cloned());
+        all
+    }
+
+    /// Returns the constants that are an `i32`.
+    pub(super) fn signed(&self) -> &[Ident] {
+        &self.signed
+    }
+
+    /// Returns the number of a constant.
+    pub(super) fn linear(&self, name: &Ident) -> Linear {
+        if self.signed.contains(name) {
+            let tokens = quote!((#name as ::core::primitive::u32));
+            return Linear::named(name.to_string(), tokens);
+        }
+        Linear::name(name)
+    }
+
+    /// Returns the declaration of each constant in generics.
+    pub(super) fn declared(&self) -> Vec<TokenStream> {
+        let one = |name: &Ident| {
+            if self.signed.contains(name) {
+                quote!(const #name: ::core::primitive::i32)
+            } else {
+                quote!(const #name: ::core::primitive::u32)
+            }
+        };
+        self.names.iter().map(one).collect()
+    }
+}

@@ -1,0 +1,183 @@
+//! Collects the triangles of a mesh, and leaves out those without area and copies.
+
+use super::polygon;
+use crate::scene::meshes::{FileError, FileFace, FilePlace};
+use crate::syntax::MeshFile;
+use crate::valid::triangle_fault;
+use glam::DVec3;
+use std::path::Path;
+
+/// The triangles of a mesh so far. Faces without area are left out at once, copies at the end.
+#[derive(Default)]
+pub(in crate::front) struct Collector {
+    faces: Vec<FileFace>,
+    /// For each triangle, the number of its face in the file.
+    origins: Vec<u32>,
+    flat: LeftOut,
+}
+
+/// The number of triangles that are left out, and the number of the first one's face.
+#[derive(Default)]
+struct LeftOut {
+    count: usize,
+    first: u32,
+}
+
+impl LeftOut {
+    fn add(&mut self, origin: u32) {
+        if self.count == 0 {
+            self.first = origin;
+        }
+        self.count += 1;
+    }
+}
+
+impl Collector {
+    /// Adds face number `origin` of the file, cut into triangles.
+    ///
+    /// # Errors
+    /// The reason that the face cannot be cut; that it has no area is none.
+    pub(in crate::front) fn add(
+        &mut self,
+        corners: &[DVec3],
+        material: Option<usize>,
+        origin: u32,
+    ) -> Result<(), MeshFile> {
+        let triangles = match polygon::triangles(corners) {
+            Err(MeshFile::NoArea) => {
+                self.flat.add(origin);
+                return Ok(());
+            }
+            triangles => triangles?,
+        };
+        for vertices in triangles {
+            if triangle_fault(&vertices).is_some() {
+                self.flat.add(origin);
+                continue;
+            }
+            self.faces.push(FileFace { vertices, material });
+            self.origins.push(origin);
+        }
+        Ok(())
+    }
+
+    /// Returns the triangles without copies, and notes about those that are left out. `place` gives
+    /// the place of a face in the file at `path`.
+    ///
+    /// # Errors
+    /// No triangle is left.
+    pub(in crate::front) fn finish(
+        mut self,
+        path: &Path,
+        place: impl Fn(u32) -> FilePlace,
+    ) -> Result<(Vec<FileFace>, Vec<FileError>), FileError> {
+        let fail = |what, place| FileError::new(what, path, place);
+        if self.faces.is_empty() {
+            return Err(match self.flat.count {
+                0 => fail(MeshFile::NoFaces, FilePlace::Whole),
+                _ => fail(MeshFile::NoArea, place(self.flat.first)),
+            });
+        }
+        let mut copies = LeftOut::default();
+        let is_copy = copied(&self.faces);
+        let mut triangles = self.origins.iter().zip(is_copy);
+        self.faces.retain(|_| {
+            let copy = triangles.next().filter(|(_, is_copy)| *is_copy);
+            copy.inspect(|(origin, _)| copies.add(**origin)).is_none()
+        });
+        let note = |left: LeftOut, what: fn(usize) -> MeshFile| {
+            (left.count > 0).then(|| fail(what(left.count), place(left.first)))
+        };
+        let flat = note(self.flat, |count| MeshFile::FlatLeftOut { count });
+        let copies = note(copies, |count| MeshFile::CopiesLeftOut { count });
+        Ok((self.faces, flat.into_iter().chain(copies).collect()))
+    }
+}
+
+/// Marks each triangle that has the corners of an earlier one, in the same cyclic order.
+fn copied(faces: &[FileFace]) -> Vec<bool> {
+    let corners = |face: u32| corners(&faces[face as usize].vertices);
+    let mut order: Vec<(u64, u32)> = (0..faces.len() as u32)
+        .map(|face| (hash(&corners(face)), face))
+        .collect();
+    // Equal hashes may be chosen, so the corners decide.
+    order.sort_unstable_by(|(hash, face), (other_hash, other)| {
+        let by_corners = || corners(*face).cmp(&corners(*other));
+        let by_hash = hash.cmp(other_hash);
+        by_hash.then_with(by_corners).then(face.cmp(other))
+    });
+    let mut copied = vec![false; faces.len()];
+    for pair in order.windows(2) {
+        let [(hash, face), (other_hash, other)] = [pair[0], pair[1]];
+        copied[other as usize] = hash == other_hash && corners(face) == corners(other);
+    }
+    copied
+}
+
+/// The bits of a triangle's corners, from the least corner on; -0 is written as 0.
+fn corners(vertices: &[DVec3; 3]) -> [[u64; 3]; 3] {
+    let corners = vertices.map(|v| v.to_array().map(|x| (x + 0.0).to_bits()));
+    let least = (0..3).min_by_key(|corner| corners[*corner]).unwrap_or(0);
+    [0, 1, 2].map(|corner| corners[(least + corner) % 3])
+}
+
+fn hash(corners: &[[u64; 3]; 3]) -> u64 {
+    // The odd multiplier of Fibonacci hashing.
+    const PHI: u64 = 0x9e37_79b9_7f4a_7c15;
+    let words = corners.as_flattened().iter();
+    words.fold(0, |hash, word| {
+        (hash ^ word).wrapping_mul(PHI).rotate_left(29)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(origin: u32) -> FilePlace {
+        FilePlace::Line(origin as usize + 1)
+    }
+
+    #[test]
+    fn copies_are_left_out_whichever_corner_comes_first() {
+        let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let minus = DVec3::new(-0.0, 0.0, -0.0);
+        let mut collector = Collector::default();
+        for (origin, face) in [
+            [a, b, c],
+            [c, a, b],
+            // The other side is another face.
+            [a, c, b],
+            [b, c, minus],
+            [b, c, DVec3::Z],
+        ]
+        .iter()
+        .enumerate()
+        {
+            collector.add(face, Some(origin), origin as u32).unwrap();
+        }
+        let (faces, notes) = collector.finish("m".as_ref(), place).unwrap();
+        let kept: Vec<_> = faces.iter().filter_map(|face| face.material).collect();
+        assert_eq!(kept, [0, 2, 4]);
+        assert_eq!(notes.len(), 1);
+        assert_eq!(*notes[0].what, MeshFile::CopiesLeftOut { count: 2 });
+        assert_eq!(notes[0].place, FilePlace::Line(2));
+    }
+
+    #[test]
+    fn a_mesh_needs_a_face_with_an_area() {
+        let mut collector = Collector::default();
+        let refused = Collector::default().finish("m".as_ref(), place);
+        assert_eq!(*refused.unwrap_err().what, MeshFile::NoFaces);
+        // The second is thinner than the checks of a scene allow.
+        let thin = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 3e-13, 0.0)];
+        for face in [[DVec3::ZERO, DVec3::X, DVec3::X], thin] {
+            collector.add(&face, None, 6).unwrap();
+        }
+        let refused = collector.finish("m".as_ref(), place).unwrap_err();
+        assert_eq!(
+            (*refused.what, refused.place),
+            (MeshFile::NoArea, FilePlace::Line(7))
+        );
+    }
+}

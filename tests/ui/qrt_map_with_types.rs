@@ -1,0 +1,18 @@
+use qrt::prelude::*;
+
+qrt! {
+    pub scene Room {
+        camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
+        film: 8 x 8,
+        material cloth: bsdf {
+            map: |u: f64, v: f64| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u)),
+            jacobian: auto,
+            value: 1 / pi,
+        },
+        triangle: cloth { (0, 0, 0), (1, 0, 0), (0, 1, 0) },
+    }
+}
+
+fn main() {
+    Room::scene();
+}

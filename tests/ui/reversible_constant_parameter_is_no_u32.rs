@@ -1,8 +1,0 @@
-use qrt::prelude::*;
-
-#[reversible]
-fn count<const W: usize>(a: &mut UInt<W>) {
-    a += 1;
-}
-
-fn main() {}

@@ -1,8 +1,0 @@
-use qrt::prelude::*;
-
-#[reversible]
-fn product(a: &Fixed<2, 6>, out: &mut Int<16>) {
-    out += a * a;
-}
-
-fn main() {}

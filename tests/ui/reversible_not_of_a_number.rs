@@ -1,0 +1,8 @@
+use qrt::prelude::*;
+
+#[reversible]
+fn negated(a: &UInt<4>, c: &mut UInt<4>) {
+    c += !a;
+}
+
+fn main() {}
