@@ -5,7 +5,47 @@ use super::value::{BoolValue, RealValue, Tabulated, Truth};
 use super::{Builder, negative_range};
 use qrt_circuit::{Bit, Op, Operand, Type};
 
+/// The fewest address bits of a table with one marked row that is compared bit by bit.
+///
+/// Shorter tables are looked up: those of one address and block share their selection.
+const COMPARED_FROM: usize = 7;
+
+/// The row of a long table whose entry, also returned, no other row has.
+fn marked_row(table: &Tabulated) -> Option<(usize, bool)> {
+    if table.address.len() < COMPARED_FROM {
+        return None;
+    }
+    let ones = table.entries.iter().filter(|&&entry| entry != 0.0).count();
+    let mark = match ones {
+        1 => true,
+        _ if ones + 1 == table.entries.len() => false,
+        _ => return None,
+    };
+    let row = table
+        .entries
+        .iter()
+        .position(|&entry| (entry != 0.0) == mark)?;
+    Some((row, mark))
+}
+
 impl Builder<'_> {
+    /// The bit that is `mark` where the address is `row`.
+    ///
+    /// Starts at the top bits of the address, which rows in a sequence have in common: n rows take about n ANDs.
+    fn is_row(&mut self, address: &[Bit], row: usize, mark: bool) -> Bit {
+        let mut equal = BoolValue::Constant(true);
+        for (place, &bit) in address.iter().enumerate().rev() {
+            let bit = self.truth_of(bit);
+            let wanted = row >> place & 1 == 1;
+            equal = self.both(equal, if wanted { bit } else { bit.negated() });
+        }
+        let bit = self.bit(equal);
+        Bit {
+            inverted: bit.inverted == mark,
+            ..bit
+        }
+    }
+
     fn truth_node(&mut self, truth: Truth) -> BoolValue {
         self.truths.push(truth);
         BoolValue::node(self.truths.len() as u32 - 1)
@@ -64,11 +104,15 @@ impl Builder<'_> {
             (Some(bit), None) => bit,
             (Some(bit), _) if self.is_filled(bit.register) => bit,
             (_, Some(table)) => {
-                let entries = table.entries.iter().map(|&entry| entry as i64).collect();
-                let bit = Bit {
-                    register: self.look_up(&table.address, entries, Type::Bool, 1),
-                    index: 0,
-                    inverted: false,
+                let bit = if let Some((row, mark)) = marked_row(&table) {
+                    self.is_row(&table.address, row, mark)
+                } else {
+                    let entries = table.entries.iter().map(|&entry| entry as i64).collect();
+                    Bit {
+                        register: self.look_up(&table.address, entries, Type::Bool, 1),
+                        index: 0,
+                        inverted: false,
+                    }
                 };
                 self.truths[node as usize].bit = Some(bit);
                 bit

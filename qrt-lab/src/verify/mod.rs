@@ -183,7 +183,6 @@ pub fn verify_prepared(
         }
     }
     // The circuits need as much memory as the recordings, which nothing needs from here on.
-    oracles.release();
     let real = prepared.machines(&MachineOptions {
         seed: options.seed,
         ..MachineOptions::default()
