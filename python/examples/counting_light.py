@@ -48,7 +48,7 @@ for bits in (5, 7, 9):
 # %%
 oracle = scene.oracle("g", (12, 9))
 oracle
-#> <qrt.Oracle of "lamp", channel g, pixel (12, 9): 10972 Toffolis on 6209 qubits>
+#> <qrt.Oracle of "lamp", channel g, pixel (12, 9): 3074 Toffolis on 1846 qubits>
 
 # %% [markdown]
 # Its device answers as a quantum computer would, with the exact probability of every outcome. So any code
@@ -68,4 +68,4 @@ for k in (0, 1, 2, 4, 8, 16):
 estimate = numpy.sin(grid[likelihood.argmax()]) ** 2
 print(f"{estimate:.4f} by {queries} queries; S/N is {oracle.good / oracle.total:.4f}")
 assert abs(estimate - oracle.good / oracle.total) < 0.02
-#> 0.1825 by 2040 queries; S/N is 0.1816
+#> 0.1825 by 2040 queries; S/N is 0.1815
