@@ -44,6 +44,7 @@ pages! {
     cost = "cost.md",
     accuracy = "accuracy.md",
     extremes = "extremes.md",
+    what_qrt_draws = "what-qrt-draws.md",
     yaml = "yaml.md",
     format = "format.md",
     macros = "macros.md",
