@@ -50,7 +50,7 @@ fn main() {
             up: [0.0, 1.0, 0.0].into(),
         })
         .material("ground", Lambertian { albedo: [0.5; 3] })
-        .material("glass", Dielectric { ior: 1.5 })
+        .material("glass", Dielectric::clear(1.5))
         .quad("ground", ground);
     let mut random = Random(1);
     for place in 0..22 * 22 {

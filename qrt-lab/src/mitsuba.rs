@@ -335,10 +335,16 @@ fn material(surface: &Surface) -> Result<String, NoCounterpart> {
             );
             two_sided(metal("roughconductor", &more, ggx.reflectance))
         }
-        Scatter::Dielectric(glass) => format!(
-            r#"<bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="1"/></bsdf>"#,
-            Number(glass.ior)
-        ),
+        Scatter::Dielectric(glass) => {
+            let through = match glass.transmittance {
+                [1.0, 1.0, 1.0] => String::new(),
+                through => colour("specular_transmittance", through),
+            };
+            format!(
+                r#"<bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="1"/>{through}</bsdf>"#,
+                Number(glass.ior)
+            )
+        }
         Scatter::Phong(_) => return Err(none("phong")),
         Scatter::Custom(_) => return Err(none("bsdf")),
     };

@@ -15,6 +15,8 @@ materials:
   grey: {{ lambertian: {{ albedo: 0.5 }} }}
   mirror: {{ mirror: {{ reflectance: 1 }} }}
   glass: {{ dielectric: {{ ior: 1.5 }} }}
+  coloured: {{ dielectric: {{ ior: 1.5, transmittance: [0.5, 0.8, 1] }} }}
+  air: {{ dielectric: {{ ior: 1, transmittance: [0.5, 0.8, 1] }} }}
   lamp: {{ emitter: {{ radiance: [4, 2, 1] }} }}
 geometry:
 {geometry}
@@ -212,4 +214,73 @@ fn circuits_of_spheres_compute_what_floating_point_does() {
             }
         }
     }
+}
+
+/// A plate under a sky of radiance 1, seen along its normal: with r of one face, what the eye sees is
+/// `r + (1 - r) t^2`, since the parts that are reflected within add up to a geometric series.
+#[test]
+fn coloured_glass_keeps_its_share_at_each_crossing() {
+    let reflected: f64 = 0.04;
+    let through = [0.5, 0.8, 1.0];
+    let plate = "  - box: { min: [-2, -1, -2], max: [2, 0, 2], material: coloured }";
+    let ball = "  - sphere: { center: [0, 0, 0], radius: 1, material: air }";
+    for (geometry, reflected) in [(plate, reflected), (ball, 0.0)] {
+        let blocks = format!(
+            "sky: {{ radiance: 1 }}\nsampling: {{ path_bits: 13, depths: {} }}",
+            depths(6, "").replace("10", "13")
+        );
+        let scene = from_above(geometry, &blocks);
+        for model in [Model::Real, Model::Fixed] {
+            let pixel = seen(&scene, model)[0];
+            for (seen, through) in pixel.iter().zip(through) {
+                let expected = reflected + (1.0 - reflected) * through * through;
+                assert!(
+                    (seen - expected).abs() < 2e-3,
+                    "{model:?}: {pixel:?}, not {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_box_is_its_six_quads() {
+    let sampling = format!(
+        "sky: {{ radiance: 1 }}\nsampling: {{ path_bits: 8, depths: {} }}",
+        depths(3, "")
+    );
+    let of_box = "  - box: { min: [-0.25, -0.5, -0.125], max: [0.25, 0.5, 0.375], material: grey }";
+    let corner = |bits: usize| {
+        [("-0.25", "0.25"), ("-0.5", "0.5"), ("-0.125", "0.375")]
+            .iter()
+            .enumerate()
+            .map(|(axis, (low, high))| if bits >> axis & 1 == 1 { *high } else { *low })
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let outlines = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let quads = outlines.map(|outline| {
+        let points = outline.map(|bits| format!("[{}]", corner(bits)));
+        format!(
+            "  - quad: {{ vertices: [{}], material: grey }}",
+            points.join(", ")
+        )
+    });
+    let quads = quads.join("\n");
+    let [one, six] = [of_box, &quads].map(|geometry| from_above(geometry, &sampling));
+    assert_eq!(one.polygons(), six.polygons());
+    // The front of each face is outside.
+    for face in one.polygons() {
+        let [a, b, c, _] = face.vertices;
+        let middle = qrt::glam::DVec3::new(0.0, 0.0, 0.125);
+        assert!((b - a).cross(c - a).dot(a - middle) > 0.0);
+    }
+    assert_eq!(seen(&one, Model::Fixed), seen(&six, Model::Fixed));
 }

@@ -5,11 +5,11 @@ use super::tokens::{Token, join, place_of};
 use super::values::{Reader, entry, faulty, text};
 use proc_macro2::Delimiter;
 use qrt_scene::syntax::tree::{Entry, Node, Span, Value};
-use qrt_scene::syntax::{codes, listed, nearest};
+use qrt_scene::syntax::{called, codes, listed, nearest};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.
-pub(super) const ENTRIES: [&str; 19] = [
+pub(super) const ENTRIES: [&str; 20] = [
     "name",
     "camera",
     "film",
@@ -18,6 +18,7 @@ pub(super) const ENTRIES: [&str; 19] = [
     "quad",
     "triangle",
     "sphere",
+    "box",
     "mesh",
     "depth",
     "sampling",
@@ -31,14 +32,14 @@ pub(super) const ENTRIES: [&str; 19] = [
     "for",
 ];
 /// Entries that a loop may repeat.
-const REPEATED: [&str; 7] = [
-    "quad", "triangle", "sphere", "mesh", "depth", "const", "for",
+const REPEATED: [&str; 8] = [
+    "quad", "triangle", "sphere", "box", "mesh", "depth", "const", "for",
 ];
 
 /// The origin of a primitive or a depth, with its author's label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
-    /// `quad`, `triangle`, `sphere`, `mesh` or `depth`.
+    /// `quad`, `triangle`, `sphere`, `box`, `mesh` or `depth`.
     pub(crate) kind: &'static str,
     /// The author's label; `None` if there is none.
     pub(crate) label: Option<String>,
@@ -225,6 +226,7 @@ impl Body {
             "quad" => self.primitive("quad", first, rest, place),
             "triangle" => self.primitive("triangle", first, rest, place),
             "sphere" => self.primitive("sphere", first, rest, place),
+            "box" => self.primitive("box", first, rest, place),
             "mesh" => self.primitive("mesh", first, rest, place),
             "depth" => self.depth(first, rest, place),
             "sky" | "sampling" | "precision" | "comparator" | "counting" | "circuit"
@@ -239,12 +241,13 @@ impl Body {
                 let message = format!("no entry of a scene is called `{word}`");
                 let near = nearest(word, ENTRIES);
                 let faults = &mut self.reader.faults;
-                faults
-                    .add(codes::MACRO_ENTRY, first.place(), message)
-                    .help(match near {
-                        Some(near) => format!("did you mean `{near}`?"),
-                        None => format!("there are {}", listed(&ENTRIES, "and")),
-                    });
+                faults.add(codes::MACRO_ENTRY, first.place(), message).help(
+                    match (called("the scene", word), near) {
+                        (Some(help), _) => help,
+                        (None, Some(near)) => format!("did you mean `{near}`?"),
+                        (None, None) => format!("there are {}", listed(&ENTRIES, "and")),
+                    },
+                );
                 // The entry that the author meant counts as present.
                 let absent = |key: &str| self.blocks.iter().all(|block| block.key != key);
                 if let Some(near @ ("name" | "camera" | "film")) = near

@@ -57,7 +57,7 @@ impl Body {
         let Some((at, inner)) = self.braces(kind, first, rest) else {
             return self.add_primitive(kind, label, faulty(place));
         };
-        let mut record = if let "mesh" | "sphere" = kind {
+        let mut record = if let "mesh" | "sphere" | "box" = kind {
             self.reader.record(kind, inner, at)
         } else {
             let Some(points) = self.points(kind, inner, at) else {

@@ -16,7 +16,7 @@ impl Reader {
                 self.incomplete.push(place);
                 continue;
             };
-            if let ("mesh" | "sphere", "material") = (name, key) {
+            if let ("mesh" | "sphere" | "box", "material") = (name, key) {
                 let white = place_of(rest).map_or(at, |end| join(at, end));
                 self.faults
                     .add(
@@ -28,6 +28,7 @@ impl Reader {
                         "write `{name}: white {{ {} }}`",
                         match name {
                             "mesh" => "obj: \"mesh.obj\"",
+                            "box" => "min: (-1, 0, -1), max: (1, 2, 1)",
                             _ => "center: (0, 1, 0), radius: 1",
                         }
                     ));

@@ -1,8 +1,8 @@
 //! Scenes written in Rust, part by part.
 
 use super::{
-    Accuracy, Budget, Camera, Circuit, Comparator, Counting, DepthSampling, Film, Geometry, Map,
-    Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene, Sky, Sphere,
+    Accuracy, Budget, Camera, Circuit, Comparator, Counting, Cuboid, DepthSampling, Film, Geometry,
+    Map, Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene, Sky, Sphere,
     Triangle,
 };
 use glam::DVec3;
@@ -203,6 +203,18 @@ impl SceneBuilder {
         self.geometry(Sphere {
             center: center.into(),
             radius,
+            material: material.to_owned(),
+        })
+    }
+
+    /// Adds a box of a material along the axes, by its corners with the least and the greatest coordinates. One
+    /// that is rotated is a [`Cuboid`] for [`SceneBuilder::geometry`].
+    pub fn cuboid(self, material: &str, min: impl Into<DVec3>, max: impl Into<DVec3>) -> Self {
+        self.geometry(Cuboid {
+            min: min.into(),
+            max: max.into(),
+            rotate: DVec3::ZERO,
+            translate: DVec3::ZERO,
             material: material.to_owned(),
         })
     }

@@ -2,7 +2,7 @@
 //! by a harmless one, so that the rest is still read and checked.
 
 use crate::syntax::tree::{Node, Value};
-use crate::syntax::{Expected, Place, Problems, Structure, nearest};
+use crate::syntax::{Expected, Place, Problems, Structure, meant_by};
 
 /// A key that a record may have.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl Problems {
             if keys.contains(&key) {
                 continue;
             }
-            misspelt.extend(nearest(key, keys.iter().copied()));
+            misspelt.extend(meant_by(noun, key, keys.iter().copied()));
             let (key, keys) = (key.to_owned(), keys.clone());
             let path = at.path().name(key.as_str());
             self.add(path, Structure::UnknownKey { key, noun, keys });

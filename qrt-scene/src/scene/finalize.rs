@@ -1,8 +1,10 @@
 //! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
-use super::shape::{Expression, Shape, is_auto};
-use super::{Data, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square};
-use crate::syntax::tree::{Node, Value};
+use super::shape::{Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
+use super::{
+    Data, DepthSampling, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square,
+};
+use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
 
 /// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The
@@ -194,5 +196,41 @@ impl Shape for JacobianShape {
     }
     fn schema(&self) -> Data {
         Expression.schema()
+    }
+}
+
+/// The shape of a path's rays: a list, or their number.
+pub(super) struct Depths;
+
+impl Depths {
+    const LIST: List<PartShape<DepthSampling>> = List {
+        item: part::<DepthSampling>(),
+        least: 1,
+    };
+    const NUMBER: Whole<u32> = whole::<u32>(1, 1024);
+}
+
+impl Shape for Depths {
+    type Value = Vec<DepthSampling>;
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
+        if matches!(&node.value, Value::Scalar(scalar) if matches!(scalar.kind(), Kind::Number(_)))
+        {
+            let rays = Self::NUMBER.decode(node, at, problems);
+            return vec![DepthSampling::default(); rays as usize];
+        }
+        Self::LIST.decode(node, at, problems)
+    }
+    fn fallback(&self) -> Self::Value {
+        Self::LIST.fallback()
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
+        Self::LIST.check(value, at, problems);
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        Self::LIST.encode(value)
+    }
+    fn schema(&self) -> Data {
+        let shapes = vec![Self::LIST.schema(), Self::NUMBER.schema()];
+        Data::map([("anyOf", Data::List(shapes))])
     }
 }

@@ -59,8 +59,9 @@ record! {
     pub film: Film = part::<Film>();
     /// The light of directions in which nothing stands; black if it is left out.
     pub sky: Option<Sky> = Maybe(part::<Sky>()), or None;
-    /// The materials, by names of your own: what surfaces do to light.
-    pub materials: Vec<(String, Material)> = Named(part::<Material>());
+    /// The materials, by names of your own: what surfaces do to light. They may be left out where
+    /// meshes bring theirs.
+    pub materials: Vec<(String, Material)> = Named(part::<Material>()), or Vec::new();
     /// Primitives and meshes. Coordinates have the unit that you choose, the scene unit.
     pub geometry: Vec<Geometry> = List {
         item: part::<Geometry>(), least: 0
@@ -226,6 +227,19 @@ record! {
     pub struct Dielectric = "a dielectric";
     /// The index of refraction of the side opposite to the normal, relative to the other.
     pub ior: f64 = number(1e-3, 1e3);
+    /// The share of the light that goes through the surface which is kept, at each crossing, in
+    /// linear RGB; default white, clear glass.
+    pub transmittance: Rgb = REFLECTANCE, or [1.0; 3];
+}
+
+impl Dielectric {
+    /// Creates clear glass of the index of refraction `ior`.
+    pub const fn clear(ior: f64) -> Self {
+        Self {
+            ior,
+            transmittance: [1.0; 3],
+        }
+    }
 }
 
 record! {
@@ -287,6 +301,8 @@ variant! {
     Triangle(Triangle) = "triangle";
     /// A sphere.
     Sphere(Sphere) = "sphere";
+    /// A box, by two opposite corners.
+    Cuboid(Cuboid) = "box";
     /// Triangles and polygons from a file, which exactly one of the keys `obj`, `ply` and `gltf`
     /// names.
     Mesh(Mesh) = "mesh";
@@ -320,6 +336,23 @@ record! {
     pub center: DVec3 = point();
     /// The radius, in scene units.
     pub radius: f64 = LENGTH;
+    /// The name of a material.
+    pub material: String = Text;
+}
+
+record! {
+    /// A box, whose fronts are outside: along the axes from `min` to `max`, then rotated, then
+    /// translated.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Cuboid = "a box";
+    /// The corner with the least coordinates, in scene units.
+    pub min: DVec3 = point();
+    /// The corner with the greatest coordinates, in scene units.
+    pub max: DVec3 = point();
+    /// Degrees about x, then y, then z, all through the origin; default none.
+    pub rotate: DVec3 = point(), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = point(), or DVec3::ZERO;
     /// The name of a material.
     pub material: String = Text;
 }
@@ -394,10 +427,9 @@ record! {
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and
     /// only that.
     pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
-    /// One entry per ray of a path, the primary ray first; default three.
-    pub depths: Vec<DepthSampling> = List {
-        item: part::<DepthSampling>(), least: 1
-    }, or vec![DepthSampling::of_bits([8, 8]); 3];
+    /// One entry per ray of a path, the primary ray first; or the number of rays, each with 8 bits per
+    /// coordinate. Default three.
+    pub depths: Vec<DepthSampling> = finalize::Depths, or vec![DepthSampling::of_bits([8, 8]); 3];
     /// The sampling of lamps at the depths that have `light` bits.
     pub lights: Lights = word::<Lights>(), or Lights::Auto;
 }

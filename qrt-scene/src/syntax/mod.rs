@@ -4,6 +4,7 @@
 //! All front ends and checks report through this module. It imports nothing from the scene modules:
 //! a [`Problem`] is an enum variant with arguments, which each front end words in its own way.
 
+mod called;
 pub mod codes;
 mod invalid;
 mod kinds;
@@ -15,6 +16,7 @@ mod problem;
 mod report;
 pub mod tree;
 
+pub use called::{called, meant_by};
 pub use invalid::InvalidScene;
 pub use kinds::*;
 pub(crate) use line::{line_after, line_starts};

@@ -6,13 +6,13 @@
 use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
-use crate::scene::{Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
+use crate::scene::{Cuboid, Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
 use crate::syntax::{
     Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
     Structure, Triangles, nearest,
 };
 use crate::valid::{Ball, Polygon, Scatter, Surface, simple};
-use glam::DVec3;
+use glam::{BVec3, DVec3};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
@@ -22,6 +22,17 @@ const LEAST_AREA: f64 = 1e-12;
 /// Maximum distance of a corner of a planar quad from the plane of the others, relative to the
 /// quad's longest extent.
 const PLANAR: f64 = 1e-9;
+
+/// The corners of a box's six faces, counterclockwise as seen from outside. Bit 0 of a corner is set at the greatest x,
+/// bit 1 at the greatest y, bit 2 at the greatest z.
+const BOX: [[u8; 4]; 6] = [
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+];
 
 /// Maximum number of keywords without a counterpart that a note names.
 const MOST_KEYWORDS: usize = 16;
@@ -89,6 +100,10 @@ pub(super) fn polygons(
                         primitive: index,
                     });
                 }
+            }
+            Geometry::Cuboid(cuboid) => {
+                let surface = build.surface(&cuboid.material, &path);
+                build.cuboid(cuboid, surface, &path);
             }
             Geometry::Mesh(mesh) => build.mesh(mesh, &path),
         }
@@ -163,7 +178,7 @@ impl<'a> Build<'a> {
                 Problem::new(path.item(second), fault).also(path.item(first))
             }
             Fault::Straight { at } | Fault::Reflex { at } => Problem::new(path.item(at), fault),
-            Fault::Flat | Fault::Crossing => Problem::new(path, fault),
+            Fault::Flat | Fault::Crossing | Fault::NoVolume { .. } => Problem::new(path, fault),
         };
         self.problems.push(problem);
     }
@@ -190,6 +205,27 @@ impl<'a> Build<'a> {
                 self.out.push(triangle([a, b, c], surface));
                 self.out.push(triangle([a, c, d], surface));
             }
+        }
+    }
+
+    /// Adds the six quads of a box.
+    fn cuboid(&mut self, cuboid: &Cuboid, surface: u32, path: &Path) {
+        let [min, max] = ["min", "max"].map(|key| path.key(key));
+        if self.problems.touches(&min) || self.problems.touches(&max) {
+            return;
+        }
+        let flat = (0..3).find(|&axis| cuboid.min[axis] >= cuboid.max[axis]);
+        if let Some(axis) = flat {
+            let problem = Problem::new(max, Fault::NoVolume { axis });
+            return self.problems.push(problem.also(min));
+        }
+        let transform = Transform::new(1.0, cuboid.rotate, cuboid.translate);
+        for corners in BOX {
+            let vertices = corners.map(|corner| {
+                let far = BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0);
+                transform.apply(DVec3::select(far, cuboid.max, cuboid.min))
+            });
+            self.quad(&vertices, surface, path);
         }
     }
 
@@ -232,7 +268,7 @@ impl<'a> Build<'a> {
             }
             return;
         }
-        let transform = Transform::from_mesh(mesh);
+        let transform = Transform::new(mesh.scale, mesh.rotate, mesh.translate);
         let own = match named {
             None => self.own_materials(file, read, &place),
             Some(_) => Vec::new(),
@@ -429,18 +465,15 @@ struct Transform {
 }
 
 impl Transform {
-    fn from_mesh(mesh: &Mesh) -> Self {
-        let [x, y, z] = mesh.rotate.to_array().map(sin_cos_degrees);
+    fn new(scale: f64, rotate: DVec3, translate: DVec3) -> Self {
+        let [x, y, z] = rotate.to_array().map(sin_cos_degrees);
         let turn = |v: DVec3| {
             let v = DVec3::new(v.x, x.1 * v.y - x.0 * v.z, x.0 * v.y + x.1 * v.z);
             let v = DVec3::new(y.1 * v.x + y.0 * v.z, v.y, y.1 * v.z - y.0 * v.x);
             DVec3::new(z.1 * v.x - z.0 * v.y, z.0 * v.x + z.1 * v.y, v.z)
         };
-        let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn(axis) * mesh.scale);
-        Self {
-            columns,
-            translate: mesh.translate,
-        }
+        let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn(axis) * scale);
+        Self { columns, translate }
     }
 
     fn apply(&self, v: DVec3) -> DVec3 {

@@ -245,7 +245,9 @@ impl ValidScene {
                 // User-defined BSDFs are the scene's alone.
                 Scatter::Black | Scatter::Custom(_) => (0, vec![0.0; 3]),
                 Scatter::Mirror(mirror) => (1, mirror.reflectance.to_vec()),
-                Scatter::Dielectric(glass) => (2, vec![glass.ior]),
+                Scatter::Dielectric(glass) => {
+                    (2, [&[glass.ior], &glass.transmittance[..]].concat())
+                }
                 Scatter::Ggx(ggx) => (3, [&[ggx.alpha], &ggx.reflectance[..]].concat()),
                 Scatter::Phong(phong) => {
                     let colours = [phong.diffuse, phong.specular].concat();

@@ -37,6 +37,7 @@ fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
         Geometry::Quad(quad) => Some(quad.material.as_str()),
         Geometry::Triangle(triangle) => Some(triangle.material.as_str()),
         Geometry::Sphere(sphere) => Some(sphere.material.as_str()),
+        Geometry::Cuboid(cuboid) => Some(cuboid.material.as_str()),
         Geometry::Mesh(mesh) => mesh.material.as_deref(),
     });
     let used: HashSet<&str> = named.collect();

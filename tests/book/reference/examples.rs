@@ -22,7 +22,7 @@ materials:
   white: { lambertian: { albedo: [0.7, 0.7, 0.7] } }
   lamp: { emitter: { radiance: [16, 14, 11] } }
   silver: { mirror: { reflectance: [0.95, 0.93, 0.88] } }
-  glass: { dielectric: { ior: 1.5 } }
+  glass: { dielectric: { ior: 1.5, transmittance: [0.9, 1, 0.9] } }
   satin: { ggx: { alpha: 0.2, reflectance: [0.9, 0.7, 0.5] } }
   vinyl: { phong: { diffuse: [0.4, 0.1, 0.1], specular: [0.5, 0.5, 0.5], exponent: 20 } }
   velvet:
@@ -40,6 +40,7 @@ geometry:
       material: white
   - triangle: { vertices: [[0, 1, 0], [1, 1, 0], [0, 2, 0]], material: lamp }
   - sphere: { center: [0, 1, 0], radius: 1, material: white }
+  - box: { min: [-1, 0, -1], max: [1, 2, 1], material: white, rotate: [0, 30, 0] }
   - mesh: { obj: meshes/knot.obj, material: white, scale: 0.5, translate: [0, 1, 0] }
 ",
     ),

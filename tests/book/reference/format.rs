@@ -164,16 +164,20 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
             let head = format!("{inner}- `{word}`: ");
             *page += &wrapped(&sentence(&plain(&meaning)), &head, &format!("{inner}  "));
         }
-        if let Some(item) = part
-            .get("items")
-            .filter(|item| item.get("properties").is_some())
-        {
+        if let Some(item) = items(part).filter(|item| item.get("properties").is_some()) {
             keys(page, &path, item, &inner);
         }
         if part.get("properties").is_some() {
             keys(page, &path, part, &inner);
         }
     }
+}
+
+/// The schema of a list's items, also where something shorter may stand for the list.
+fn items(schema: &Value) -> Option<&Value> {
+    let choices = schema.get("anyOf").and_then(Value::as_sequence);
+    let mut lists = choices.into_iter().flatten().chain([schema]);
+    lists.find_map(|list| list.get("items"))
 }
 
 /// Collects the schema's entry at each path below `path`, independently of this page.

@@ -96,6 +96,9 @@ pub(crate) fn kind(schema: &Value) -> String {
             [colour, grey] if is_type(colour, "array") && is_type(grey, "number") => {
                 format!("{}; or one number, which is grey", kind(colour))
             }
+            [list, count] if is_type(list, "array") && is_type(count, "integer") => {
+                format!("{}; or a {}", kind(list), kind(count))
+            }
             [one, _, _] if is_expression(one) && lists == 2 => {
                 "expression, or a list of one or three".to_owned()
             }

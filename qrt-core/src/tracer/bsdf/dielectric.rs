@@ -1,18 +1,25 @@
 //! Smooth glass: two delta lobes.
 //!
 //! If `u` is below the Fresnel reflectance, the ray is reflected with weight 1. Otherwise it is
-//! refracted and its radiance is scaled by the squared ratio of the indices.
+//! refracted and its radiance is scaled by the squared ratio of the indices and by the transmittance.
 
 use super::vertex::Scattered;
 use super::{Sample, by_surface};
 use crate::tracer::{Arith, vector};
 use qrt_scene::valid::{Scatter, Surface};
 
+/// True if `scatter` is glass that keeps a part of the light which goes through it.
+pub(super) fn is_coloured(scatter: &Scatter) -> bool {
+    matches!(scatter, Scatter::Dielectric(glass) if glass.transmittance != [1.0; 3])
+}
+
 /// All dielectric surfaces.
 #[derive(Clone, Debug)]
 pub(super) struct DielectricLobe {
     /// For each surface `1 / ior` and `ior`, the index on the side opposite to the normal.
     refraction: Vec<[f64; 2]>,
+    /// True if one of them has a transmittance, which then is the tint of all.
+    coloured: bool,
 }
 
 impl DielectricLobe {
@@ -21,7 +28,11 @@ impl DielectricLobe {
             Scatter::Dielectric(glass) => Some([1.0 / glass.ior, glass.ior]),
             _ => None,
         });
-        Self { refraction }
+        let coloured = surfaces.iter().any(|surface| is_coloured(&surface.scatter));
+        Self {
+            refraction,
+            coloured,
+        }
     }
 
     #[inline(always)]
@@ -51,15 +62,23 @@ impl DielectricLobe {
         let across = math!(cx, select(reflects, mirrored, refracted));
         let direction = vector!(cx, at.arriving * along + at.normal * across);
         let direction = vector::unit(cx, &direction);
-        let weight = math!(cx, select(reflects, 1.0, eta_squared));
+        let weight = if self.coloured {
+            sample.tint.map(|tint| {
+                let through = cx.mul(eta_squared, tint);
+                math!(cx, select(reflects, 1.0, through))
+            })
+        } else {
+            [math!(cx, select(reflects, 1.0, eta_squared)); C]
+        };
         Scattered {
             direction,
-            weight: [weight; C],
+            weight,
             density: cx.real(0.0),
         }
     }
 
-    /// The greatest weight of `surface`: that of the refraction that makes radiance denser.
+    /// The greatest weight of `surface`: that of the refraction that makes radiance denser, in clear glass. A
+    /// transmittance is at most 1.
     pub(super) fn weight_bound(&self, surface: u32) -> f64 {
         let [_, ior] = self.refraction[surface as usize];
         (ior * ior).max(1.0 / (ior * ior))

@@ -116,9 +116,10 @@ fn tables(scatter: &Scatter) -> usize {
     }
 }
 
-/// The factor of a weight that is looked up by surface.
-fn tint(scatter: &Scatter) -> Rgb {
+/// The factor of a weight that is looked up by surface. `coloured` tells whether any glass has one.
+fn tint(scatter: &Scatter, coloured: bool) -> Rgb {
     match scatter {
+        Scatter::Dielectric(glass) if coloured => glass.transmittance,
         Scatter::Lambertian(lobe) => lobe.albedo,
         Scatter::Mirror(lobe) => lobe.reflectance,
         Scatter::Ggx(lobe) => lobe.reflectance,
@@ -233,8 +234,12 @@ impl<const C: usize> ScatterStage<C> {
             };
             lobes.push((number..number + 1, lobe));
         }
+        let coloured = surfaces.iter().any(|s| dielectric::is_coloured(&s.scatter));
         Self {
-            tint: surfaces.iter().map(|s| pick(tint(&s.scatter))).collect(),
+            tint: surfaces
+                .iter()
+                .map(|s| pick(tint(&s.scatter, coloured)))
+                .collect(),
             uses_map: lobes.iter().any(|(_, lobe)| lobe.uses_map()),
             asks_for_angles: lobes.iter().any(|(_, lobe)| lobe.asks_for_angles()),
             lobes: lobes.into(),

@@ -217,7 +217,7 @@ fn materials_are_those_of_the_scene_language() {
                "KHR_materials_transmission": { "transmissionFactor": 1 },
                "KHR_materials_ior": { "ior": 1.25 } }"#
                 .to_owned(),
-            Dielectric { ior: 1.25 }.into(),
+            Dielectric::clear(1.25).into(),
             "",
         ),
         (

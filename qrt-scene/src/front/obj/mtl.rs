@@ -400,7 +400,7 @@ impl Definition {
                 said.roughness.is_some_and(|roughness| roughness > 0.0),
             );
             leave_out(transparency, is_partial);
-            return Ok(Dielectric { ior }.into());
+            return Ok(Dielectric::clear(ior).into());
         }
         leave_out(transparency, is_partial);
         if is_metal {

@@ -6,6 +6,7 @@
     reason = "a variant is documented by its words, an argument by its name"
 )]
 
+use super::called::called;
 use super::name::{listed, nearest};
 use super::number::{grouped, number, rounded};
 use super::tree::shorten;

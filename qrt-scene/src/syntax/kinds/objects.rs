@@ -89,6 +89,10 @@ problems! {
             help "split it into two triangles";
         Crossing = CROSSING "the quad's edges cross"
             help "list the vertices in order around the outline";
+        NoVolume { axis: usize } = ZERO_AREA
+            { format!("the box has no extent along {}", ["x", "y", "z"][*axis % 3]) }
+            label "must exceed `min` in each coordinate" help "exchange the two, or write a quad"
+            also "the corner with the least coordinates";
     }
 
     /// Problems with pieces of glass.

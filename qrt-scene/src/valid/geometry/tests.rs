@@ -165,14 +165,8 @@ proptest! {
         let [x, y, z] = degrees.map(f64::to_radians);
         let turn = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
         let translate = DVec3::new(3.0, -4.0, 5.0);
-        let mesh = Mesh {
-            scale,
-            rotate: degrees.into(),
-            translate,
-            ..Mesh::default()
-        };
         let expected = turn * (DVec3::from(point) * scale) + translate;
-        let found = Transform::from_mesh(&mesh).apply(point.into());
+        let found = Transform::new(scale, degrees.into(), translate).apply(point.into());
         prop_assert!(found.distance(expected) < 1e-11 * (1.0 + expected.length()));
     }
 }

@@ -95,7 +95,7 @@ fn meant(
         leave_out("alpha", alpha > 0.0 && alpha < 1.0);
         leave_out("baseColorFactor", base != [base[0]; 3]);
         leave_out("roughnessFactor", transmission > 0.0 && roughness > 0.0);
-        return Ok(Dielectric { ior }.into());
+        return Ok(Dielectric::clear(ior).into());
     }
     leave_out("alpha", alpha < 1.0);
     leave_out("transmissionFactor", transmission > 0.0);

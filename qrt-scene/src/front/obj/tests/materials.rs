@@ -22,7 +22,7 @@ fn matte(grey: f64) -> Material {
 }
 
 fn glass(ior: f64) -> Material {
-    Dielectric { ior }.into()
+    Dielectric::clear(ior).into()
 }
 
 fn mirror(grey: f64) -> Material {

@@ -1,0 +1,222 @@
+//! Names that other renderers use, with what the scene language says instead.
+
+use super::name::nearest;
+
+/// What a scene says in place of a word.
+#[derive(Clone, Copy, Debug)]
+enum Here {
+    /// The word that stands in the same place.
+    Name(&'static str),
+    /// A sentence.
+    Words(&'static str),
+}
+
+use Here::{Name, Words};
+
+/// Rows of what is described, the words of others for one of its keys or kinds, and that of a scene. Words are in
+/// small letters, without `_` and `-`.
+#[rustfmt::skip]
+const ROWS: &[(&str, &[&str], Here)] = &[
+    ("the scene", &["sensor", "view", "cameras"], Name("camera")),
+    ("the scene", &["image", "resolution", "width", "height", "imagewidth", "screen", "output"], Name("film")),
+    ("the scene", &["environment", "background", "envmap", "env", "world", "skylight", "hdri"], Name("sky")),
+    ("the scene", &["bsdfs", "brdfs", "shaders", "surfaces"], Name("materials")),
+    ("the scene", &["objects", "shapes", "primitives", "meshes", "entities", "models", "spheres"], Name("geometry")),
+    ("the scene", &["sampler", "render", "settings"], Name("sampling")),
+    ("the scene", &["light", "lights", "lamps", "emitters"],
+        Words("a lamp is a primitive whose material is an `emitter`")),
+    ("the scene", &["sun"], Words("qrt has no sun: make a far `sphere` an `emitter`")),
+    ("the scene", &["spp", "samples", "samplesperpixel", "paths"],
+        Words("write `path_bits` in `sampling`: a pixel has 2^path_bits paths")),
+    ("the scene", &["maxdepth", "depth", "bounces", "maxbounces", "depths", "integrator"],
+        Words("write `depths` in `sampling`: the number of rays of a path, or an entry for each")),
+    ("the scene", &["textures", "texture"], Words("a colour is the same everywhere on a surface")),
+    ("a camera", &["pinhole", "persp", "projective", "thinlens"], Name("perspective")),
+    ("a camera", &["ortho", "parallel"], Name("orthographic")),
+    ("a camera", &["fov", "vfov", "eye", "position", "origin", "from", "lookfrom", "lookat", "target", "lens"],
+        Words("it goes into the map of the kind: `perspective: { eye: [..], target: [..], vfov: 40 }`")),
+    ("a perspective camera", &["fov", "fovy", "yfov", "fieldofview", "verticalfov"], Name("vfov")),
+    ("a perspective camera", &["xfov", "hfov", "fovx", "horizontalfov", "focallength"],
+        Words("`vfov` is the angle from the bottom of the film to its top, in degrees")),
+    ("a perspective camera",
+        &["position", "pos", "origin", "from", "lookfrom", "location", "center", "centre"], Name("eye")),
+    ("a perspective camera", &["lookat", "at", "to", "look", "interest"], Name("target")),
+    ("a perspective camera", &["vup", "upvector"], Name("up")),
+    ("a perspective camera",
+        &["aperture", "apertureradius", "focus", "focusdist", "focusdistance", "focaldistance", "defocusangle", "dof"],
+        Words("write `lens: { aperture: 0.1, focus: 10 }`")),
+    ("a perspective camera", &["aspect", "aspectratio"], Words("pixels are squares: `film` gives the aspect")),
+    ("an orthographic camera", &["position", "pos", "origin", "from", "lookfrom", "location"], Name("eye")),
+    ("an orthographic camera", &["lookat", "at", "to", "look"], Name("target")),
+    ("an orthographic camera", &["scale", "size", "ymag", "orthoscale"], Name("height")),
+    ("a lens", &["radius", "apertureradius", "lensradius"],
+        Words("`aperture` is the diameter of the lens, twice its radius")),
+    ("a lens", &["fstop", "fnumber"], Words("`aperture` is the diameter of the lens, in scene units")),
+    ("a lens", &["diameter"], Name("aperture")),
+    ("a lens", &["distance", "focusdistance", "focusdist", "focaldistance", "dist"], Name("focus")),
+    ("the film", &["w", "xresolution", "xres", "imagewidth", "columns"], Name("width")),
+    ("the film", &["h", "yresolution", "yres", "imageheight", "rows"], Name("height")),
+    ("the film", &["resolution", "size"], Words("write `width` and `height`, in pixels")),
+    ("the sky", &["color", "colour", "intensity", "emission", "strength", "value"], Name("radiance")),
+    ("the sky", &["top", "high"], Name("zenith")),
+    ("the sky", &["bottom", "low"], Name("horizon")),
+    ("the sky", &["file", "filename", "map", "hdri", "texture"],
+        Words("qrt reads no pictures: write `radiance`, or `horizon` and `zenith`")),
+    ("a material", &["diffuse", "matte", "lambert", "lambertianreflection", "orennayar"], Name("lambertian")),
+    ("a material", &["plastic", "roughplastic", "glossy", "blinnphong"], Name("phong")),
+    ("a material", &["conductor", "specular", "reflective", "chrome"], Name("mirror")),
+    ("a material", &["roughconductor", "metal", "microfacet", "coatedconductor", "roughmetal"], Name("ggx")),
+    ("a material", &["principled", "principledbsdf", "disney", "pbr", "uber", "standard", "standardsurface", "coateddiffuse"],
+        Words("take `ggx` for rough metal, `phong` for a highlight on a matte surface, or write a `bsdf`")),
+    ("a material", &["glass", "dielectrics", "refractive", "thindielectric", "water", "transparent"],
+        Name("dielectric")),
+    ("a material", &["roughdielectric", "frosted"], Words("take `dielectric` for smooth glass, or write a `bsdf`")),
+    ("a material", &["light", "lamp", "area", "arealight", "emissive", "emission", "emit", "diffuselight"],
+        Name("emitter")),
+    ("a material", &["custom", "brdf", "user"], Name("bsdf")),
+    ("a lambertian material", &["color", "colour", "reflectance", "diffuse", "kd", "basecolor", "rgb"], Name("albedo")),
+    ("a lambertian material", &["texture", "map", "checker"], Words("a colour is the same everywhere on a surface")),
+    ("an emitter", &["color", "colour", "emission", "emit", "le", "l", "ke", "intensity", "power", "strength", "emittance"],
+        Name("radiance")),
+    ("an emitter", &["reflectance", "diffuse", "kd"], Name("albedo")),
+    ("a mirror", &["color", "colour", "albedo", "specular", "ks", "specularreflectance", "tint"], Name("reflectance")),
+    ("a mirror", &["roughness", "alpha", "fuzz"], Words("a rough mirror is a `ggx`, with an `alpha`")),
+    ("a dielectric", &["eta", "index", "intior", "refractiveindex", "indexofrefraction", "n", "ni", "refidx"], Name("ior")),
+    ("a dielectric", &["extior"], Words("`ior` is the index within, relative to that outside")),
+    ("a dielectric", &["color", "colour", "tint", "transmission", "speculartransmittance", "albedo", "tf"],
+        Name("transmittance")),
+    ("a dielectric", &["roughness", "alpha"], Words("glass is smooth here")),
+    ("a ggx material", &["roughness", "fuzz", "alphax", "uroughness"],
+        Words("write `alpha`: the square of the roughness that modelling programs show")),
+    ("a ggx material", &["color", "colour", "albedo", "specular", "ks", "specularreflectance", "basecolor"],
+        Name("reflectance")),
+    ("a phong material", &["kd", "albedo", "color", "colour", "diffusereflectance"], Name("diffuse")),
+    ("a phong material", &["ks", "specularreflectance", "highlight"], Name("specular")),
+    ("a phong material", &["shininess", "ns", "n", "power", "glossiness"], Name("exponent")),
+    ("a primitive", &["rectangle", "rect", "plane", "parallelogram", "square", "xyrect", "xzrect", "yzrect"],
+        Name("quad")),
+    ("a primitive", &["tri", "trianglemesh"], Name("triangle")),
+    ("a primitive", &["ball", "orb"], Name("sphere")),
+    ("a primitive", &["cube", "cuboid", "aabb", "block"], Name("box")),
+    ("a primitive", &["obj", "ply", "gltf", "glb", "file", "model", "trimesh", "shape"], Name("mesh")),
+    ("a primitive", &["disk", "disc", "cylinder", "cone", "torus", "polygon", "curve", "ellipsoid"],
+        Words("qrt has quads, triangles, boxes, spheres and meshes: export this one as a mesh")),
+    ("a quad", &["points", "corners", "positions", "verts", "p"], Name("vertices")),
+    ("a triangle", &["points", "corners", "positions", "verts", "p"], Name("vertices")),
+    ("a sphere", &["centre", "position", "pos", "origin", "location", "translate", "c"], Name("center")),
+    ("a sphere", &["r"], Name("radius")),
+    ("a sphere", &["diameter", "size", "scale"], Words("`radius` is half the diameter")),
+    ("a box", &["low", "lower", "from", "a", "pmin", "p0"], Name("min")),
+    ("a box", &["high", "upper", "to", "b", "pmax", "p1"], Name("max")),
+    ("a box", &["center", "centre", "size", "scale"], Words("write two opposite corners, `min` and `max`")),
+    ("a box", &["rotation"], Name("rotate")),
+    ("a box", &["offset", "position", "translation"], Name("translate")),
+    ("a mesh", &["file", "filename", "path", "source"], Words("write `obj: FILE`, `ply: FILE` or `gltf: FILE`")),
+    ("a mesh", &["position", "offset", "translation", "location"], Name("translate")),
+    ("a mesh", &["rotation", "orientation"], Name("rotate")),
+    ("a mesh", &["size"], Name("scale")),
+    ("sampling", &["spp", "samples", "samplesperpixel", "paths", "rays"],
+        Words("write `path_bits`: a pixel has 2^path_bits paths")),
+    ("sampling", &["maxdepth", "depth", "bounces", "maxbounces"], Name("depths")),
+    ("sampling", &["sampler", "pattern"], Name("sequence")),
+    ("sampling", &["nee", "nextevent", "lightsampling", "directlight", "mis"], Name("lights")),
+    ("a sequence", &["sobol", "net"], Name("digital-net")),
+    ("a sequence", &["halton", "hammersley", "qmc", "lowdiscrepancy"],
+        Words("the sequence of low discrepancy is the `digital-net`, of Sobol' points")),
+    ("a sequence", &["lattice", "grid", "stratified", "paper"], Name("product-lattice")),
+    ("a sequence", &["independent", "random", "uniform"],
+        Words("a circuit knows its paths: the `digital-net` is shifted at random from pixel to pixel")),
+    ("a way to sample lights", &["nee", "direct", "area"], Name("next-event")),
+    ("a way to sample lights", &["off", "false", "bsdf"], Name("none")),
+    ("a way to sample lights", &["on", "true", "default"], Name("auto")),
+];
+
+fn find(noun: &str, word: &str) -> Option<Here> {
+    let letters = word.chars().filter(|c| !matches!(c, '_' | '-' | ' '));
+    let plain: String = letters.flat_map(char::to_lowercase).collect();
+    let row = ROWS
+        .iter()
+        .find(|(of, words, _)| *of == noun && words.contains(&plain.as_str()))?;
+    Some(row.2)
+}
+
+/// Returns the name that `word` stands for in other renderers, or misspells, among `names` of a part of the scene.
+pub fn meant_by<'a>(
+    noun: &str,
+    word: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    if let Some(Name(name)) = find(noun, word) {
+        names.retain(|other| *other == name);
+        return names.pop();
+    }
+    nearest(word, names)
+}
+
+/// Returns help for `word`, which other renderers use for a key or kind of the part `noun` of a scene.
+pub fn called(noun: &str, word: &str) -> Option<String> {
+    Some(match find(noun, word)? {
+        Name(name) => format!("`{word}` is called `{name}` here"),
+        Words(words) => words.to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn words_of_other_renderers_name_ours() {
+        for (noun, word, help) in [
+            (
+                "a material",
+                "diffuse",
+                "`diffuse` is called `lambertian` here",
+            ),
+            (
+                "the scene",
+                "background",
+                "`background` is called `sky` here",
+            ),
+            (
+                "the scene",
+                "samplesPerPixel",
+                "write `path_bits` in `sampling`: a pixel has 2^path_bits paths",
+            ),
+            (
+                "sampling",
+                "max-depth",
+                "`max-depth` is called `depths` here",
+            ),
+            ("a perspective camera", "FOV", "`FOV` is called `vfov` here"),
+        ] {
+            assert_eq!(called(noun, word).as_deref(), Some(help));
+        }
+        assert_eq!(called("a mesh", "diffuse"), None);
+        assert_eq!(
+            meant_by("a sphere", "r", ["center", "radius"]),
+            Some("radius")
+        );
+        assert_eq!(
+            meant_by("a sphere", "radus", ["center", "radius"]),
+            Some("radius")
+        );
+    }
+
+    #[test]
+    fn no_word_stands_twice_or_needs_normalising() {
+        let mut known = HashSet::new();
+        for (noun, words, _) in ROWS {
+            for word in *words {
+                assert!(known.insert((noun, word)), "{noun}: {word}");
+                assert!(
+                    word.chars()
+                        .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit()),
+                    "{word}"
+                );
+            }
+        }
+    }
+}
