@@ -178,6 +178,11 @@ fn spheres_under_a_sky_agree() {
 }
 
 #[test]
+fn boxes_and_coloured_glass_agree() {
+    agrees("bottles", 14, 0.01);
+}
+
+#[test]
 fn spheres_through_a_lens_agree() {
     agrees("lensed", 14, 0.01);
 }
