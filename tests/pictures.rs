@@ -15,6 +15,7 @@ mod pictures {
     mod extremes;
     mod knot_mesh_is_a_closed_tube;
     mod lamps;
+    mod metals;
     mod one_run_colour;
     mod own_estimators;
     mod physics;

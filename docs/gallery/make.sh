@@ -30,6 +30,13 @@ echo lit-box-gates
 "$qrt" render scenes-yaml/lit-box.yaml -o docs/gallery/lit-box-gates.png --model gates \
   --estimator exact --exposure 1 --set sampling.path_bits=6 --quiet
 
+# The cover by gates alone and counted: seven minutes of processor time, and two.
+echo weekend
+small=(--set film.width=200 --set film.height=112)
+"$qrt" render scenes-yaml/weekend.yaml -o docs/cover/weekend-gates.png --model gates \
+  --estimator exact "${small[@]}" --set sampling.path_bits=6 --quiet
+"$qrt" render scenes-yaml/weekend.yaml -o docs/cover/weekend-counted.png "${small[@]}" --quiet
+
 # By complete counting circuits, as amplitudes: a minute on one core. ImageMagick makes 32 x 32 of each pixel.
 echo shadow-simulated
 "$qrt" simulate scenes-yaml/small/shadow.yaml --film docs/gallery/shadow-simulated.png

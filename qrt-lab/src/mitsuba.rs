@@ -345,6 +345,7 @@ fn material(surface: &Surface) -> Result<String, NoCounterpart> {
                 Number(glass.ior)
             )
         }
+        Scatter::Metal(_) => return Err(none("metal")),
         Scatter::Phong(_) => return Err(none("phong")),
         Scatter::Custom(_) => return Err(none("bsdf")),
     };

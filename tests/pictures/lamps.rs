@@ -193,14 +193,18 @@ fn every_material_reflects_as_much_of_a_lamp() {
     let mute = r#"{ bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"],
         value: "0.6/pi*(1+0.3*cos_i)*(0.5+0.5*cos_o)" } }"#;
     let mirror = "{ mirror: { reflectance: [0.9, 0.8, 0.7] } }";
+    let gold = "{ metal: { alpha: 0.25, reflectance: [0.9, 0.6, 0.2] } }";
+    let chrome = "{ metal: { reflectance: [0.5, 0.5, 0.6] } }";
     for map in ["auto", "uniform-hemisphere"] {
         agree(&format!("matte, {map}"), MATTE, TWO, map, &["auto", "mis"]);
         agree(&format!("ggx, {map}"), ggx, QUAD, map, &ways);
+        agree(&format!("metal, {map}"), gold, QUAD, map, &ways);
         agree(&format!("phong, {map}"), phong, QUAD, map, &ways);
         agree(&format!("cloth, {map}"), cloth, QUAD, map, &ways);
     }
     agree("without a density", mute, QUAD, "auto", &ways);
     agree("mirror", mirror, QUAD, "auto", &ways);
+    agree("smooth metal", chrome, QUAD, "auto", &ways);
 }
 
 /// A floor whose lamp shines only on a mirror, or only through glass: no point of it is ever connected, and

@@ -296,6 +296,9 @@ fn every_material_is_finite_at_grazing_angles_and_inside_solids() {
         "{ dielectric: { ior: 0.01 } }",
         "{ ggx: { alpha: 1e-4, reflectance: [1, 1, 1] } }",
         "{ ggx: { alpha: 1, reflectance: [1, 1, 1] } }",
+        "{ metal: { reflectance: [0, 0.5, 1] } }",
+        "{ metal: { alpha: 1e-4, reflectance: [0, 0.5, 1] } }",
+        "{ metal: { alpha: 1, reflectance: [0, 0.5, 1] } }",
         "{ phong: { diffuse: [0.5, 0, 0], specular: [0.5, 1, 1], exponent: 1000000 } }",
         "{ phong: { diffuse: [0.5, 0, 0], specular: [0.5, 1, 1], exponent: 0 } }",
     ];

@@ -89,7 +89,7 @@ pub(crate) fn record(name: &str) -> String {
         "sphere" => "radius",
         "box" => "max",
         "lens" => "aperture",
-        "mirror" | "ggx" => "reflectance",
+        "mirror" | "ggx" | "metal" => "reflectance",
         "dielectric" => "ior",
         "phong" => "exponent",
         "bsdf" => "value",

@@ -188,6 +188,8 @@ variant! {
     Dielectric(Dielectric) = "dielectric";
     /// GGX with Fresnel 1 and separable Smith masking.
     Ggx(Ggx) = "ggx";
+    /// Metal, smooth or rough: its reflectance grows to 1 towards grazing angles, by Schlick's formula.
+    Metal(Metal) = "metal";
     /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
     /// direction.
     Phong(Phong) = "phong";
@@ -250,6 +252,16 @@ record! {
     pub alpha: f64 = number(0.0, 1.0).above();
     /// The colour of the reflection, in linear RGB.
     pub reflectance: Rgb = REFLECTANCE;
+}
+
+record! {
+    /// Metal, smooth or rough: its reflectance grows to 1 towards grazing angles, by Schlick's formula.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Metal = "a metal";
+    /// The share of light that is reflected along the normal, in linear RGB.
+    pub reflectance: Rgb = REFLECTANCE;
+    /// Roughness: 0 (smooth, the default) to 1, as that of `ggx`.
+    pub alpha: f64 = number(0.0, 1.0), or 0.0;
 }
 
 record! {

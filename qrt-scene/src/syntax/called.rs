@@ -2,7 +2,7 @@
 
 use super::name::nearest;
 
-/// What a scene says in place of a word.
+/// The answer to a word: what a scene has in its place.
 #[derive(Clone, Copy, Debug)]
 enum Here {
     /// The word that stands in the same place.
@@ -64,10 +64,11 @@ const ROWS: &[(&str, &[&str], Here)] = &[
         Words("qrt reads no pictures: write `radiance`, or `horizon` and `zenith`")),
     ("a material", &["diffuse", "matte", "lambert", "lambertianreflection", "orennayar"], Name("lambertian")),
     ("a material", &["plastic", "roughplastic", "glossy", "blinnphong"], Name("phong")),
-    ("a material", &["conductor", "specular", "reflective", "chrome"], Name("mirror")),
-    ("a material", &["roughconductor", "metal", "microfacet", "coatedconductor", "roughmetal"], Name("ggx")),
+    ("a material", &["specular", "reflective"], Name("mirror")),
+    ("a material", &["conductor", "roughconductor", "coatedconductor", "roughmetal", "chrome"], Name("metal")),
+    ("a material", &["microfacet", "trowbridgereitz"], Name("ggx")),
     ("a material", &["principled", "principledbsdf", "disney", "pbr", "uber", "standard", "standardsurface", "coateddiffuse"],
-        Words("take `ggx` for rough metal, `phong` for a highlight on a matte surface, or write a `bsdf`")),
+        Words("take `metal`, `phong` for a highlight on a matte surface, or write a `bsdf`")),
     ("a material", &["glass", "dielectrics", "refractive", "thindielectric", "water", "transparent"],
         Name("dielectric")),
     ("a material", &["roughdielectric", "frosted"], Words("take `dielectric` for smooth glass, or write a `bsdf`")),
@@ -80,6 +81,11 @@ const ROWS: &[(&str, &[&str], Here)] = &[
         Name("radiance")),
     ("an emitter", &["reflectance", "diffuse", "kd"], Name("albedo")),
     ("a mirror", &["color", "colour", "albedo", "specular", "ks", "specularreflectance", "tint"], Name("reflectance")),
+    ("a metal", &["color", "colour", "albedo", "specular", "f0", "basecolor", "specularreflectance", "tint"],
+        Name("reflectance")),
+    ("a metal", &["roughness", "fuzz"],
+        Words("write `alpha`: the square of the roughness that modelling programs show")),
+    ("a metal", &["eta", "k", "ior"], Words("write `reflectance`, the colour along the normal, in place of `eta` and `k`")),
     ("a mirror", &["roughness", "alpha", "fuzz"], Words("a rough mirror is a `ggx`, with an `alpha`")),
     ("a dielectric", &["eta", "index", "intior", "refractiveindex", "indexofrefraction", "n", "ni", "refidx"], Name("ior")),
     ("a dielectric", &["extior"], Words("`ior` is the index within, relative to that outside")),

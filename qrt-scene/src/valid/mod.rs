@@ -24,7 +24,7 @@ use crate::expr::Expr;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
-use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Mirror, Phong, Rgb, Scene};
+use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Rgb, Scene};
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
@@ -81,6 +81,7 @@ impl Surface {
         match &self.scatter {
             Scatter::Black | Scatter::Mirror(_) | Scatter::Dielectric(_) => false,
             Scatter::Lambertian(_) | Scatter::Ggx(_) | Scatter::Phong(_) => true,
+            Scatter::Metal(metal) => metal.alpha > 0.0,
             Scatter::Custom(bsdf) => bsdf.pdf.is_some(),
         }
     }
@@ -96,6 +97,7 @@ pub enum Scatter {
     Mirror(Mirror),
     Dielectric(Dielectric),
     Ggx(Ggx),
+    Metal(Metal),
     Phong(Phong),
     Custom(Box<CustomBsdf>),
 }
@@ -249,6 +251,7 @@ impl ValidScene {
                     (2, [&[glass.ior], &glass.transmittance[..]].concat())
                 }
                 Scatter::Ggx(ggx) => (3, [&[ggx.alpha], &ggx.reflectance[..]].concat()),
+                Scatter::Metal(metal) => (5, [&[metal.alpha], &metal.reflectance[..]].concat()),
                 Scatter::Phong(phong) => {
                     let colours = [phong.diffuse, phong.specular].concat();
                     (4, [&colours[..], &[phong.exponent]].concat())
@@ -376,6 +379,7 @@ fn simple(material: &Material) -> Result<(Rgb, Scatter), &Bsdf> {
         Material::Mirror(part) => Scatter::Mirror(*part),
         Material::Dielectric(part) => Scatter::Dielectric(*part),
         Material::Ggx(part) => Scatter::Ggx(*part),
+        Material::Metal(part) => Scatter::Metal(*part),
         Material::Phong(part) => Scatter::Phong(*part),
         Material::Bsdf(part) => return Err(part),
     };

@@ -24,6 +24,7 @@ materials:
   silver: { mirror: { reflectance: [0.95, 0.93, 0.88] } }
   glass: { dielectric: { ior: 1.5, transmittance: [0.9, 1, 0.9] } }
   satin: { ggx: { alpha: 0.2, reflectance: [0.9, 0.7, 0.5] } }
+  gold: { metal: { reflectance: [1, 0.8, 0.3], alpha: 0.1 } }
   vinyl: { phong: { diffuse: [0.4, 0.1, 0.1], specular: [0.5, 0.5, 0.5], exponent: 20 } }
   velvet:
     bsdf:

@@ -1,4 +1,4 @@
-//! GGX with Fresnel 1 and separable Smith masking.
+//! GGX with separable Smith masking, and Fresnel 1 or, for metal, Schlick's approximation.
 //!
 //! ```text
 //! f = reflectance D(h) G1(i) G1(o) / (4 cos_i cos_o)
@@ -8,8 +8,10 @@
 //!
 //! (Walter et al. 2007.) Its own map samples the distribution of visible normals by spherical caps
 //! (Dupuy & Benyoub 2023), with the density `D(h) G1(o) / (4 cos_o)` of directions. So the map's
-//! Jacobian cancels all but the masking of the sampled direction: `W = reflectance G1(i)`.
+//! Jacobian cancels all but the masking of the sampled direction: `W = reflectance G1(i)`. The
+//! reflectance of metal depends on the angle between `o` and `h`.
 
+use super::mirror::schlick;
 use super::vertex::{Scattered, to_scene};
 use super::{Mapped, Sample, Square, Way, by_surface};
 use crate::tracer::Arith;
@@ -24,14 +26,17 @@ pub(super) struct GgxLobe {
     roughness: Vec<[f64; 1]>,
     /// The least roughness of these surfaces.
     least_alpha: f64,
+    /// True if these surfaces are metal, whose reflectance grows with the angle.
+    is_metal: bool,
     /// True if the lobe samples by its own map.
     pub(super) has_map: bool,
 }
 
 impl GgxLobe {
-    pub(super) fn new(surfaces: &[&Surface], square: &Square) -> Self {
+    pub(super) fn new(surfaces: &[&Surface], square: &Square, is_metal: bool) -> Self {
         let roughness = by_surface(surfaces, [1.0], |scatter| match scatter {
-            Scatter::Ggx(ggx) => Some([ggx.alpha]),
+            Scatter::Ggx(ggx) if !is_metal => Some([ggx.alpha]),
+            Scatter::Metal(metal) if is_metal && metal.alpha > 0.0 => Some([metal.alpha]),
             _ => None,
         });
         Self {
@@ -39,6 +44,7 @@ impl GgxLobe {
                 .iter()
                 .fold(1.0, |least, [alpha]| least.min(*alpha)),
             roughness,
+            is_metal,
             has_map: !square.map.replaces(),
         }
     }
@@ -58,7 +64,8 @@ impl GgxLobe {
             let value = value(cx, alpha, outgoing, &direction, self.least_alpha);
             (direction, math!(cx, scale(value, PI) * factor))
         };
-        let weight = vector::scale(cx, &sample.tint, factor);
+        let tint = self.reflectance(cx, sample.tint, outgoing, &incoming);
+        let weight = vector::scale(cx, &tint, factor);
         let direction = to_scene(cx, sample.at, &incoming);
         let density = if !sample.asks_for_density {
             cx.real(0.0)
@@ -109,10 +116,30 @@ impl GgxLobe {
         }
     }
 
+    /// The reflectance from `incoming` to `outgoing`, of surfaces with this `tint`. The cosine between a direction
+    /// and the half vector is `sqrt((1 + i.o) / 2)`.
+    #[inline(always)]
+    pub(super) fn reflectance<A: Arith, const C: usize>(
+        &self,
+        cx: &mut A,
+        tint: [A::Real; C],
+        outgoing: &Vector<A>,
+        incoming: &Vector<A>,
+    ) -> [A::Real; C] {
+        if !self.is_metal {
+            return tint;
+        }
+        let [x, y, z] = vector::mul(cx, outgoing, incoming);
+        let squared = math!(cx, scale(1.0 + (x + y + z), 0.5));
+        let cos = math!(cx, sqrt(known(max(squared, 0.0), 0.0, 1.0)));
+        schlick(cx, tint, cos)
+    }
+
     /// The greatest weight of `surface`. Under the depth's map it is `pi f` times the map's factor:
     /// `D` is at most `1 / (pi alpha^2)`, and the masking's denominator at least `alpha^2`; both at
     /// once at grazing angles.
     pub(super) fn weight_bound(&self, surface: u32, reflectance: f64, factor: f64) -> f64 {
+        let reflectance = if self.is_metal { 1.0 } else { reflectance };
         let [alpha] = self.roughness[surface as usize];
         if self.has_map {
             reflectance

@@ -42,7 +42,10 @@ enum Lobe<const C: usize> {
     Lambertian,
     Mirror,
     Dielectric(DielectricLobe),
+    /// GGX, of Fresnel 1 or of rough metal.
     Ggx(GgxLobe),
+    /// Smooth metal.
+    Metal,
     Phong(PhongLobe<C>),
     Custom(CustomLobe<C>),
 }
@@ -51,7 +54,9 @@ impl<const C: usize> Lobe<C> {
     /// True if the lobe belongs to one surface, and has no tables by surface.
     fn is_of_one(&self) -> bool {
         match self {
-            Self::Lambertian | Self::Mirror | Self::Dielectric(_) | Self::Ggx(_) => false,
+            Self::Lambertian | Self::Mirror | Self::Metal | Self::Dielectric(_) | Self::Ggx(_) => {
+                false
+            }
             Self::Phong(_) | Self::Custom(_) => true,
         }
     }
@@ -59,7 +64,7 @@ impl<const C: usize> Lobe<C> {
     /// True if the lobe reads the viewer's direction in the local frame.
     fn asks_for_outgoing(&self) -> bool {
         match self {
-            Self::Lambertian | Self::Mirror | Self::Dielectric(_) => false,
+            Self::Lambertian | Self::Mirror | Self::Metal | Self::Dielectric(_) => false,
             Self::Ggx(_) | Self::Phong(_) | Self::Custom(_) => true,
         }
     }
@@ -68,7 +73,7 @@ impl<const C: usize> Lobe<C> {
     fn uses_map(&self) -> bool {
         match self {
             Self::Lambertian => true,
-            Self::Mirror | Self::Dielectric(_) => false,
+            Self::Mirror | Self::Metal | Self::Dielectric(_) => false,
             Self::Ggx(lobe) => !lobe.has_map,
             Self::Phong(lobe) => !lobe.has_map,
             Self::Custom(lobe) => lobe.direction.is_none(),
@@ -80,7 +85,7 @@ impl<const C: usize> Lobe<C> {
         match self {
             // A mirror keeps the length of a direction.
             Self::Lambertian | Self::Mirror => false,
-            Self::Dielectric(_) | Self::Ggx(_) | Self::Phong(_) => true,
+            Self::Metal | Self::Dielectric(_) | Self::Ggx(_) | Self::Phong(_) => true,
             Self::Custom(lobe) => lobe.asks_for_angles,
         }
     }
@@ -96,6 +101,8 @@ pub(crate) fn rank(scatter: &Scatter) -> u32 {
         Scatter::Ggx(_) => 4,
         Scatter::Phong(_) => 5,
         Scatter::Custom(_) => 6,
+        Scatter::Metal(metal) if metal.alpha == 0.0 => 7,
+        Scatter::Metal(_) => 8,
     }
 }
 
@@ -123,6 +130,7 @@ fn tint(scatter: &Scatter, coloured: bool) -> Rgb {
         Scatter::Lambertian(lobe) => lobe.albedo,
         Scatter::Mirror(lobe) => lobe.reflectance,
         Scatter::Ggx(lobe) => lobe.reflectance,
+        Scatter::Metal(lobe) => lobe.reflectance,
         Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
             [0.0; 3]
         }
@@ -228,7 +236,9 @@ impl<const C: usize> ScatterStage<C> {
                 Scatter::Lambertian(_) => Lobe::Lambertian,
                 Scatter::Mirror(_) => Lobe::Mirror,
                 Scatter::Dielectric(_) => Lobe::Dielectric(DielectricLobe::new(surfaces)),
-                Scatter::Ggx(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square)),
+                Scatter::Ggx(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square, false)),
+                Scatter::Metal(metal) if metal.alpha == 0.0 => Lobe::Metal,
+                Scatter::Metal(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square, true)),
                 Scatter::Phong(phong) => Lobe::Phong(PhongLobe::new(phong, pick, &square)),
                 Scatter::Custom(bsdf) => Lobe::Custom(CustomLobe::new(bsdf, channels, &square)),
             };
@@ -275,6 +285,8 @@ impl<const C: usize> ScatterStage<C> {
             None => [0.0; C],
             Some(Lobe::Lambertian) => tint.map(|albedo| albedo * factor),
             Some(Lobe::Mirror) => tint,
+            // Schlick's formula goes from the tint to 1.
+            Some(Lobe::Metal) => [1.0; C],
             Some(Lobe::Dielectric(lobe)) => [lobe.weight_bound(number); C],
             Some(Lobe::Ggx(lobe)) => tint.map(|tint| lobe.weight_bound(number, tint, factor)),
             Some(Lobe::Phong(lobe)) => lobe.weight_bound(factor),
@@ -290,6 +302,7 @@ impl<const C: usize> ScatterStage<C> {
             | Some(
                 Lobe::Lambertian
                 | Lobe::Mirror
+                | Lobe::Metal
                 | Lobe::Dielectric(_)
                 | Lobe::Ggx(_)
                 | Lobe::Custom(_),
@@ -313,7 +326,7 @@ impl<const C: usize> ScatterStage<C> {
             return Some(self.square.map.density(cx, incoming));
         }
         match lobe {
-            Lobe::Lambertian | Lobe::Mirror | Lobe::Dielectric(_) => None,
+            Lobe::Lambertian | Lobe::Mirror | Lobe::Metal | Lobe::Dielectric(_) => None,
             Lobe::Ggx(lobe) => {
                 let number = cx.index(number);
                 Some(lobe.density(cx, number, outgoing, incoming))
@@ -334,7 +347,7 @@ impl<const C: usize> ScatterStage<C> {
     /// True if the density of the directions that surface `number` samples is known.
     pub(crate) fn samples_lights(&self, number: u32) -> bool {
         match self.lobe(number) {
-            None | Some(Lobe::Mirror | Lobe::Dielectric(_)) => false,
+            None | Some(Lobe::Mirror | Lobe::Metal | Lobe::Dielectric(_)) => false,
             Some(Lobe::Lambertian | Lobe::Ggx(_) | Lobe::Phong(_)) => true,
             Some(Lobe::Custom(lobe)) => lobe.has_density(),
         }
@@ -376,7 +389,7 @@ impl<const C: usize> ScatterStage<C> {
         let (mut lit, mut way) = (None, None);
         for (surfaces, lobe) in &*self.lobes {
             match lobe {
-                Lobe::Mirror | Lobe::Dielectric(_) => {}
+                Lobe::Mirror | Lobe::Metal | Lobe::Dielectric(_) => {}
                 Lobe::Lambertian if projected => {
                     if let Some(mask) = members(cx, at, surfaces) {
                         let factor = lights.projected(cx, at.surface, towards);
@@ -394,6 +407,7 @@ impl<const C: usize> ScatterStage<C> {
                     let way = way.get_or_insert_with(|| Way::new(cx, at, towards, &self.square));
                     if let Some(mask) = members(cx, at, surfaces) {
                         let factor = lobe.light(cx, at.surface, way);
+                        let tint = lobe.reflectance(cx, tint, &way.outgoing, &way.incoming);
                         choose(cx, &mut lit, mask, Lit::new(tint, factor));
                     }
                 }
@@ -466,6 +480,7 @@ impl<const C: usize> ScatterStage<C> {
             let new = match lobe {
                 Lobe::Lambertian => lambertian::scatter(cx, &sample),
                 Lobe::Mirror => mirror::scatter(cx, &sample),
+                Lobe::Metal => mirror::scatter_by_angle(cx, &sample),
                 Lobe::Dielectric(lobe) => lobe.scatter(cx, &sample),
                 Lobe::Ggx(lobe) => lobe.scatter(cx, &sample),
                 Lobe::Phong(lobe) => lobe.scatter(cx, &sample),

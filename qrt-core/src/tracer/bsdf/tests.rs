@@ -126,6 +126,13 @@ fn microfacets(i: Direction, o: Direction) -> f64 {
     0.9 * d * g1(i[2]) * g1(o[2]) / (4.0 * i[2] * o[2])
 }
 
+/// The BSDF of [`microfacets`] with 0.4 along the normal and Schlick's formula.
+fn metal(i: Direction, o: Direction) -> f64 {
+    let sum = [0, 1, 2].map(|k: usize| i[k] + o[k]);
+    let cos_d = dot(sum, o) / dot(sum, sum).sqrt();
+    microfacets(i, o) / 0.9 * (0.4 + 0.6 * (1.0 - cos_d).powi(5))
+}
+
 /// `i.mirror(o)`
 fn cos_a(i: Direction, o: Direction) -> f64 {
     i[2] * o[2] - i[0] * o[0] - i[1] * o[1]
@@ -145,6 +152,7 @@ fn moon(i: Direction, o: Direction) -> f64 {
 
 const LAMBERTIAN: &str = "{ lambertian: { albedo: [0.7, 0.5, 0.3] } }";
 const GGX: &str = "{ ggx: { alpha: 0.3, reflectance: [0.9, 0.7, 0.5] } }";
+const METAL: &str = "{ metal: { alpha: 0.3, reflectance: [0.4, 0.4, 0.4] } }";
 const PHONG: &str =
     "{ phong: { diffuse: [0.3, 0.2, 0.1], specular: [0.5, 0.5, 0.5], exponent: 20 } }";
 const LOBE: &str = "{ phong: { diffuse: [0, 0, 0], specular: [0.5, 0.4, 0.3], exponent: 20.5 } }";
@@ -167,7 +175,7 @@ fn assert_all_that_scatter<const N: usize>(materials: [&str; N]) {
 
 #[test]
 fn every_weight_is_the_value_times_cosine_times_jacobian() {
-    let cases: [(&str, Textbook, &[&str]); 5] = [
+    let cases: [(&str, Textbook, &[&str]); 6] = [
         (
             LAMBERTIAN,
             matte,
@@ -176,6 +184,11 @@ fn every_weight_is_the_value_times_cosine_times_jacobian() {
         (
             GGX,
             microfacets,
+            &["auto", "cosine-hemisphere", "uniform-hemisphere"],
+        ),
+        (
+            METAL,
+            metal,
             &["auto", "cosine-hemisphere", "uniform-hemisphere"],
         ),
         (PHONG, glossy, &["cosine-hemisphere", "uniform-hemisphere"]),
@@ -269,9 +282,10 @@ fn reflected(textbook: Textbook, o: Direction) -> f64 {
 #[test]
 fn every_map_reaches_all_that_the_value_reflects() {
     const BITS: u32 = 9;
-    let cases: [(&str, Textbook); 5] = [
+    let cases: [(&str, Textbook); 6] = [
         (LAMBERTIAN, matte),
         (GGX, microfacets),
+        (METAL, metal),
         (PHONG, glossy),
         (LOBE, lobe),
         (MOON, moon),

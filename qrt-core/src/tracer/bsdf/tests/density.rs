@@ -18,11 +18,13 @@ fn over_sphere(density: impl Fn(Direction) -> f64) -> f64 {
 }
 
 /// Materials and maps whose density has a formula.
-const DENSE: [(&str, &str); 8] = [
+const DENSE: [(&str, &str); 10] = [
     (LAMBERTIAN, "auto"),
     (LAMBERTIAN, "uniform-hemisphere"),
     (GGX, "auto"),
     (GGX, "cosine-hemisphere"),
+    (METAL, "auto"),
+    (METAL, "uniform-hemisphere"),
     (PHONG, "auto"),
     (PHONG, "uniform-hemisphere"),
     (LOBE, "auto"),

@@ -1,7 +1,10 @@
 //! Checks that the two ways to find a lamp share its light: the weights of a point on the lamp and
 //! of a ray that meets that point add up to 1, for every surface and all positions of both.
 
-use super::{Direction, Textbook, VIEWERS, assert_all_that_scatter, at, dot, matte, microfacets};
+use super::{
+    Direction, METAL, Textbook, VIEWERS, assert_all_that_scatter, at, dot, matte, metal,
+    microfacets,
+};
 use crate::tracer::bsdf::Vertex;
 use crate::tracer::lights::{LightStage, Towards};
 use crate::tracer::scalar::Scalar;
@@ -113,13 +116,14 @@ fn a_point_and_the_ray_to_it_share_the_light_of_every_lobe() {
     let glossy = "{ phong: { diffuse: [0, 0, 0], specular: [0.5, 0.5, 0.5], exponent: 7 } }";
     let cloth = r#"{ bsdf: { map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"],
         value: "0.2*(1+cos_o)*cos_i", pdf: "cos_i/pi" } }"#;
-    let textbook: [(&str, &str, Textbook); 4] = [
+    let textbook: [(&str, &str, Textbook); 5] = [
         (
             "matte",
             "{ lambertian: { albedo: [0.7, 0.7, 0.7] } }",
             matte,
         ),
         ("ggx", ggx, microfacets),
+        ("metal", METAL, metal),
         ("phong", glossy, |i, o| {
             let mirror = [-o[0], -o[1], o[2]];
             0.5 * 9.0 / (2.0 * PI) * dot(i, mirror).max(0.0).powi(7)
