@@ -178,7 +178,7 @@ impl<'a> Build<'a> {
                 Problem::new(path.item(second), fault).also(path.item(first))
             }
             Fault::Straight { at } | Fault::Reflex { at } => Problem::new(path.item(at), fault),
-            Fault::Flat | Fault::Crossing | Fault::NoVolume { .. } => Problem::new(path, fault),
+            _ => Problem::new(path, fault),
         };
         self.problems.push(problem);
     }
@@ -220,12 +220,24 @@ impl<'a> Build<'a> {
             return self.problems.push(problem.also(min));
         }
         let transform = Transform::new(1.0, cuboid.rotate, cuboid.translate);
-        for corners in BOX {
-            let vertices = corners.map(|corner| {
+        let faces = BOX.map(|corners| {
+            corners.map(|corner| {
                 let far = BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0);
                 transform.apply(DVec3::select(far, cuboid.max, cuboid.min))
-            });
-            self.quad(&vertices, surface, path);
+            })
+        });
+        if !faces
+            .as_flattened()
+            .iter()
+            .all(|&corner| is_in_range(corner))
+        {
+            self.problems.add(path.clone(), Fault::Far);
+        } else if faces.iter().any(|face| quad_fault(face).is_some()) {
+            self.problems.add(path.clone(), Fault::Rounded);
+        } else {
+            for face in &faces {
+                self.quad(face, surface, path);
+            }
         }
     }
 
@@ -284,10 +296,7 @@ impl<'a> Build<'a> {
                 continue;
             };
             let vertices = face.vertices.map(|vertex| transform.apply(vertex));
-            if !vertices
-                .iter()
-                .all(|vertex| vertex.abs().cmple(DVec3::splat(LARGEST)).all())
-            {
+            if !vertices.iter().all(|&vertex| is_in_range(vertex)) {
                 far.push(index);
             } else if triangle_fault(&vertices).is_some() {
                 flat.push(index);
@@ -456,6 +465,11 @@ fn is_planar(vertices: &[DVec3; 4]) -> bool {
     let [_, b, c, d] = unit(vertices);
     let normal = b.cross(c);
     d.dot(normal).abs() <= PLANAR * normal.length()
+}
+
+/// True if no coordinate of `point` is larger than those that a scene may have.
+fn is_in_range(point: DVec3) -> bool {
+    point.abs().cmple(DVec3::splat(LARGEST)).all()
 }
 
 /// Scale, then rotation about x, then y, then z, then translation.

@@ -89,6 +89,10 @@ problems! {
             help "split it into two triangles";
         Crossing = CROSSING "the quad's edges cross"
             help "list the vertices in order around the outline";
+        Rounded = ZERO_AREA "the box loses its extent once rotated and moved"
+            help "rounding takes it: use a larger box or a smaller translation";
+        Far = MESH_RANGE "the box is out of range once rotated and moved"
+            help "use smaller corners or a smaller translation";
         NoVolume { axis: usize } = ZERO_AREA
             { format!("the box has no extent along {}", ["x", "y", "z"][*axis % 3]) }
             label "must exceed `min` in each coordinate" help "exchange the two, or write a quad"
