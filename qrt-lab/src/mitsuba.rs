@@ -67,7 +67,7 @@ pub struct MeshFile {
 pub struct NoCounterpart {
     /// Name of the material in the scene.
     pub name: String,
-    /// `phong` or `bsdf`.
+    /// `metal`, `phong` or `bsdf`.
     pub kind: &'static str,
 }
 
@@ -88,8 +88,8 @@ impl NoCounterpart {
 /// `scalar_rgb` or `llvm_ad_rgb`. The mesh files are called `STEM.N.MATERIAL.ply`.
 ///
 /// # Errors
-/// If a face has a material that Mitsuba lacks: a `phong` with a specular part, or a user-defined
-/// `bsdf`.
+/// If a face has a material that Mitsuba lacks: a `metal`, a `phong` with a specular part, or a
+/// user-defined `bsdf`.
 pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
     let depth = scene.scene().sampling.depths.len();
     let mut text = format!(

@@ -9,7 +9,8 @@ qrt::qrt! {
         spp: 64,
         material grey: diffuse { albedo: 0.5 },
         box: grey { min: (-1, 0, -1), max: (1, 0, 1) },
-        sampling { path_bits: 4, depths: 3 },
+        cube: grey { min: (-1, 0, -1), max: (1, 1, 1) },
+        sampling { path_bits: 4, depths: 3, sequence: sobol, lights: nee },
     }
 }
 

@@ -10,7 +10,7 @@ use qrt_circuit::{Bit, Op, Operand, Type};
 /// Shorter tables are looked up: those of one address and block share their selection.
 const COMPARED_FROM: usize = 7;
 
-/// The row of a long table whose entry, also returned, no other row has.
+/// Returns the row of a long table whose entry differs from all others, and that entry.
 fn marked_row(table: &Tabulated) -> Option<(usize, bool)> {
     if table.address.len() < COMPARED_FROM {
         return None;

@@ -182,7 +182,6 @@ pub fn verify_prepared(
             checked.push((pixels, oracles.with_costs(class)?));
         }
     }
-    // The circuits need as much memory as the recordings, which nothing needs from here on.
     let real = prepared.machines(&MachineOptions {
         seed: options.seed,
         ..MachineOptions::default()

@@ -1,7 +1,8 @@
 //! Advice: the right thing to write, in the macro's form.
 
 use qrt_scene::syntax::{
-    Description, Expected, Material, MeshFile, Sampling, Structure, What, codes, listed, nearest,
+    Description, Expected, Material, MeshFile, Sampling, Structure, What, called, codes, listed,
+    nearest,
 };
 
 /// Examples of keys and entries.
@@ -153,7 +154,14 @@ fn help(what: &What) -> Option<String> {
         What::Structure(Structure::WrongChannels { .. }) => {
             "write one expression for grey, or `rgb(r, g, b)`"
         }
-        What::Structure(Structure::UnknownWord { word, words, .. }) => {
+        What::Structure(Structure::UnknownWord { word, noun, words }) => {
+            if let Some(help) = called(noun, word, words) {
+                // Names of YAML are in backticks.
+                let spell = |help: String, name: &&str| {
+                    help.replace(&format!("`{name}`"), &format!("`{}`", spelled(name)))
+                };
+                return Some(words.iter().fold(help, spell));
+            }
             return Some(match nearest(word, words.iter().copied()) {
                 Some(near) => format!("did you mean `{}`?", spelled(near)),
                 None => one_of(words),

@@ -5,7 +5,7 @@ use super::tokens::{Token, join, place_of};
 use super::values::{Reader, entry, faulty, text};
 use proc_macro2::Delimiter;
 use qrt_scene::syntax::tree::{Entry, Node, Span, Value};
-use qrt_scene::syntax::{called, codes, listed, nearest};
+use qrt_scene::syntax::{called, codes, listed, meant_by};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.
@@ -239,15 +239,18 @@ impl Body {
             }
             _ => {
                 let message = format!("no entry of a scene is called `{word}`");
-                let near = nearest(word, ENTRIES);
+                let near = meant_by("the scene", word, ENTRIES)
+                    .or_else(|| meant_by("a primitive", word, ENTRIES));
+                let help = called("the scene", word, &ENTRIES)
+                    .or_else(|| called("a primitive", word, &ENTRIES));
                 let faults = &mut self.reader.faults;
-                faults.add(codes::MACRO_ENTRY, first.place(), message).help(
-                    match (called("the scene", word), near) {
+                faults
+                    .add(codes::MACRO_ENTRY, first.place(), message)
+                    .help(match (help, near) {
                         (Some(help), _) => help,
                         (None, Some(near)) => format!("did you mean `{near}`?"),
                         (None, None) => format!("there are {}", listed(&ENTRIES, "and")),
-                    },
-                );
+                    });
                 // The entry that the author meant counts as present.
                 let absent = |key: &str| self.blocks.iter().all(|block| block.key != key);
                 if let Some(near @ ("name" | "camera" | "film")) = near

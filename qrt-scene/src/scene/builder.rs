@@ -207,8 +207,8 @@ impl SceneBuilder {
         })
     }
 
-    /// Adds a box of a material along the axes, by its corners with the least and the greatest coordinates. One
-    /// that is rotated is a [`Cuboid`] for [`SceneBuilder::geometry`].
+    /// Adds a box of a material along the axes, by its corners with the least and the greatest
+    /// coordinates. Pass a [`Cuboid`] to [`SceneBuilder::geometry`] for a rotated box.
     pub fn cuboid(self, material: &str, min: impl Into<DVec3>, max: impl Into<DVec3>) -> Self {
         self.geometry(Cuboid {
             min: min.into(),

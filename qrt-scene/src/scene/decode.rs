@@ -2,7 +2,7 @@
 //! by a harmless one, so that the rest is still read and checked.
 
 use crate::syntax::tree::{Node, Value};
-use crate::syntax::{Expected, Place, Problems, Structure, meant_by};
+use crate::syntax::{Expected, Place, Problems, Structure, called, meant_by};
 
 /// A key that a record may have.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,9 @@ impl Problems {
         let other = entries.iter().find(|entry| Some(*entry) != known);
         match (known, other) {
             (Some(_), None) => {}
-            (None, Some(entry)) if entries.len() == 1 => {
+            (None, Some(entry))
+                if entries.len() == 1 || called(noun, &entry.key, kinds).is_some() =>
+            {
                 let name = entry.key.clone();
                 let path = at.path().name(name.as_str());
                 self.mark(at.path());

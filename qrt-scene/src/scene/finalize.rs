@@ -2,7 +2,8 @@
 
 use super::shape::{Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
 use super::{
-    Data, DepthSampling, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square,
+    Data, DepthSampling, Jacobian, Lights, Material, Mesh, MeshFormat, Sampling, Scene, Sequence,
+    Sky, Square,
 };
 use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
@@ -130,6 +131,11 @@ pub(super) fn scene(
     problems: &mut Problems,
 ) -> Scene {
     sample_lens(&mut scene);
+    let depths = node.entry("sampling");
+    let depths = depths.and_then(|entry| entry.value.entry("depths"));
+    if depths.is_some_and(|entry| is_number(&entry.value)) {
+        sample_lamps(&mut scene);
+    }
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
             if node.entry(key).is_some() {
@@ -142,6 +148,21 @@ pub(super) fn scene(
         }
     }
     scene
+}
+
+/// Lets all rays but the primary one sample lamps, if the scene has a material that emits.
+fn sample_lamps(scene: &mut Scene) {
+    let mut materials = scene.materials.iter();
+    let has_lamps = materials.any(|(_, material)| matches!(material, Material::Emitter(_)));
+    if has_lamps && scene.sampling.lights != Lights::None {
+        for depth in scene.sampling.depths.iter_mut().skip(1) {
+            depth.light = Some(depth.bits);
+        }
+    }
+}
+
+fn is_number(node: &Node) -> bool {
+    matches!(&node.value, Value::Scalar(scalar) if matches!(scalar.kind(), Kind::Number(_)))
 }
 
 /// Gives the point on a lens the bits of the primary ray, if it has none.
@@ -207,14 +228,13 @@ impl Depths {
         item: part::<DepthSampling>(),
         least: 1,
     };
-    const NUMBER: Whole<u32> = whole::<u32>(1, 1024);
+    const NUMBER: Whole<u32> = whole::<u32>(1, 64);
 }
 
 impl Shape for Depths {
     type Value = Vec<DepthSampling>;
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
-        if matches!(&node.value, Value::Scalar(scalar) if matches!(scalar.kind(), Kind::Number(_)))
-        {
+        if is_number(node) {
             let rays = Self::NUMBER.decode(node, at, problems);
             return vec![DepthSampling::default(); rays as usize];
         }
@@ -232,5 +252,41 @@ impl Shape for Depths {
     fn schema(&self) -> Data {
         let shapes = vec![Self::LIST.schema(), Self::NUMBER.schema()];
         Data::map([("anyOf", Data::List(shapes))])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::DepthSampling;
+
+    #[test]
+    fn a_number_of_rays_samples_lamps_where_there_are_any() {
+        let depths = |material: &str, sampling: &str| {
+            let text = format!(
+                "name: n
+camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 40 }} }}
+film: {{ width: 1, height: 1 }}
+sky: {{ radiance: 1 }}
+materials: {{ m: {material} }}
+geometry: [{{ sphere: {{ center: [0, 0, 0], radius: 1, material: m }} }}]
+sampling: {{ {sampling} }}"
+            );
+            let parsed = crate::front::parse(&text, "n.yaml", &[], "".as_ref());
+            let parsed = parsed.unwrap_or_else(|report| panic!("{report}"));
+            parsed.valid.scene().sampling.depths.clone()
+        };
+        let plain = DepthSampling::default();
+        let lit = DepthSampling {
+            light: Some([8, 8]),
+            ..plain.clone()
+        };
+        let lamp = "{ emitter: { radiance: 1 } }";
+        let grey = "{ lambertian: { albedo: 0.5 } }";
+        assert_eq!(depths(lamp, "depths: 3"), [plain.clone(), lit.clone(), lit]);
+        assert_eq!(
+            depths(lamp, "depths: 2, lights: none"),
+            [plain.clone(), plain.clone()]
+        );
+        assert_eq!(depths(grey, "depths: 2"), [plain.clone(), plain]);
     }
 }

@@ -229,8 +229,8 @@ record! {
     pub struct Dielectric = "a dielectric";
     /// The index of refraction of the side opposite to the normal, relative to the other.
     pub ior: f64 = number(1e-3, 1e3);
-    /// The share of the light that goes through the surface which is kept, at each crossing, in
-    /// linear RGB; default white, clear glass.
+    /// Fraction of the transmitted light that each crossing of the surface keeps, in linear RGB;
+    /// default white, clear glass.
     pub transmittance: Rgb = REFLECTANCE, or [1.0; 3];
 }
 
@@ -440,7 +440,7 @@ record! {
     /// only that.
     pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
     /// One entry per ray of a path, the primary ray first; or the number of rays, each with 8 bits per
-    /// coordinate. Default three.
+    /// coordinate, which sample lamps where a material emits. Default three, which do not.
     pub depths: Vec<DepthSampling> = finalize::Depths, or vec![DepthSampling::of_bits([8, 8]); 3];
     /// The sampling of lamps at the depths that have `light` bits.
     pub lights: Lights = word::<Lights>(), or Lights::Auto;

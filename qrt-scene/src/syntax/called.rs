@@ -13,13 +13,14 @@ enum Here {
 
 use Here::{Name, Words};
 
-/// Rows of what is described, the words of others for one of its keys or kinds, and that of a scene. Words are in
-/// small letters, without `_` and `-`.
+/// Parts of a scene, words of other renderers for one of their keys or kinds, and the answer. Words are in small
+/// letters, without `_` and `-`.
 #[rustfmt::skip]
 const ROWS: &[(&str, &[&str], Here)] = &[
     ("the scene", &["sensor", "view", "cameras"], Name("camera")),
-    ("the scene", &["image", "resolution", "width", "height", "imagewidth", "screen", "output"], Name("film")),
-    ("the scene", &["environment", "background", "envmap", "env", "world", "skylight", "hdri"], Name("sky")),
+    ("the scene", &["image", "resolution", "width", "height", "imagewidth", "imageheight", "screen"],
+        Words("write `film: { width: 640, height: 480 }`")),
+    ("the scene", &["environment", "background", "envmap", "env", "skylight", "hdri"], Name("sky")),
     ("the scene", &["bsdfs", "brdfs", "shaders", "surfaces"], Name("materials")),
     ("the scene", &["objects", "shapes", "primitives", "meshes", "entities", "models", "spheres"], Name("geometry")),
     ("the scene", &["sampler", "render", "settings"], Name("sampling")),
@@ -123,7 +124,8 @@ const ROWS: &[(&str, &[&str], Here)] = &[
     ("a mesh", &["size"], Name("scale")),
     ("sampling", &["spp", "samples", "samplesperpixel", "paths", "rays"],
         Words("write `path_bits`: a pixel has 2^path_bits paths")),
-    ("sampling", &["maxdepth", "depth", "bounces", "maxbounces"], Name("depths")),
+    ("sampling", &["maxdepth", "depth"], Name("depths")),
+    ("sampling", &["bounces", "maxbounces"], Words("write `depths`, the number of rays: one more than bounces")),
     ("sampling", &["sampler", "pattern"], Name("sequence")),
     ("sampling", &["nee", "nextevent", "lightsampling", "directlight", "mis"], Name("lights")),
     ("a sequence", &["sobol", "net"], Name("digital-net")),
@@ -160,12 +162,14 @@ pub fn meant_by<'a>(
     nearest(word, names)
 }
 
-/// Returns help for `word`, which other renderers use for a key or kind of the part `noun` of a scene.
-pub fn called(noun: &str, word: &str) -> Option<String> {
-    Some(match find(noun, word)? {
-        Name(name) => format!("`{word}` is called `{name}` here"),
-        Words(words) => words.to_owned(),
-    })
+/// Returns help for `word`, which other renderers use for one of `names`, the keys or kinds of the part `noun` of a
+/// scene.
+pub fn called(noun: &str, word: &str, names: &[&str]) -> Option<String> {
+    match find(noun, word)? {
+        Name(name) if !names.contains(&name) => None,
+        Name(name) => Some(format!("`{word}` is called `{name}` here")),
+        Words(words) => Some(words.to_owned()),
+    }
 }
 
 #[cfg(test)]
@@ -175,40 +179,57 @@ mod tests {
 
     #[test]
     fn words_of_other_renderers_name_ours() {
-        for (noun, word, help) in [
+        let scene = ["sky", "film"];
+        for (noun, word, names, help) in [
             (
                 "a material",
                 "diffuse",
+                &["lambertian"][..],
                 "`diffuse` is called `lambertian` here",
             ),
             (
                 "the scene",
                 "background",
+                &scene,
                 "`background` is called `sky` here",
             ),
             (
                 "the scene",
                 "samplesPerPixel",
+                &scene,
                 "write `path_bits` in `sampling`: a pixel has 2^path_bits paths",
             ),
             (
                 "sampling",
                 "max-depth",
+                &["depths"],
                 "`max-depth` is called `depths` here",
             ),
-            ("a perspective camera", "FOV", "`FOV` is called `vfov` here"),
+            (
+                "a perspective camera",
+                "FOV",
+                &["vfov"],
+                "`FOV` is called `vfov` here",
+            ),
         ] {
-            assert_eq!(called(noun, word).as_deref(), Some(help));
+            assert_eq!(called(noun, word, names).as_deref(), Some(help));
         }
-        assert_eq!(called("a mesh", "diffuse"), None);
-        assert_eq!(
-            meant_by("a sphere", "r", ["center", "radius"]),
-            Some("radius")
-        );
-        assert_eq!(
-            meant_by("a sphere", "radus", ["center", "radius"]),
-            Some("radius")
-        );
+        assert_eq!(called("a mesh", "diffuse", &["lambertian"]), None);
+        // A macro has no entry `geometry`.
+        assert_eq!(called("the scene", "objects", &scene), None);
+        let sphere = ["center", "radius"];
+        assert_eq!(meant_by("a sphere", "r", sphere), Some("radius"));
+        assert_eq!(meant_by("a sphere", "radus", sphere), Some("radius"));
+    }
+
+    #[test]
+    fn each_name_is_in_the_schema() {
+        let schema = crate::schema::text();
+        for (_, _, here) in ROWS {
+            if let Name(name) = here {
+                assert!(schema.contains(&format!("\"{name}\"")), "{name}");
+            }
+        }
     }
 
     #[test]

@@ -101,7 +101,7 @@ codes! {
     COINCIDENT = "QRT0301", "two vertices at one point",
         "Move one of them, or use a triangle";
     ZERO_AREA = "QRT0302", "a primitive without area",
-        "Move a vertex off the line through the others, or a corner of a box away from the other";
+        "Move a vertex off the line through the others";
     NOT_CONVEX = "QRT0303", "a quad that is not convex",
         "Split it into triangles";
     CROSSING = "QRT0304", "a quad whose edges cross",

@@ -214,9 +214,10 @@ impl<'a> Build<'a> {
         if self.problems.touches(&min) || self.problems.touches(&max) {
             return;
         }
-        let flat = (0..3).find(|&axis| cuboid.min[axis] >= cuboid.max[axis]);
-        if let Some(axis) = flat {
-            let problem = Problem::new(max, Fault::NoVolume { axis });
+        let flat = (0..3).filter(|&axis| cuboid.min[axis] >= cuboid.max[axis]);
+        let axes: Vec<_> = flat.map(|axis| ["x", "y", "z"][axis]).collect();
+        if !axes.is_empty() {
+            let problem = Problem::new(max, Fault::NoVolume { axes });
             return self.problems.push(problem.also(min));
         }
         let transform = Transform::new(1.0, cuboid.rotate, cuboid.translate);
@@ -233,7 +234,7 @@ impl<'a> Build<'a> {
         {
             self.problems.add(path.clone(), Fault::Far);
         } else if faces.iter().any(|face| quad_fault(face).is_some()) {
-            self.problems.add(path.clone(), Fault::Rounded);
+            self.problems.add(path.clone(), Fault::Thin);
         } else {
             for face in &faces {
                 self.quad(face, surface, path);

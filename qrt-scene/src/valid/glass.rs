@@ -34,9 +34,12 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     if let Overlap::Of([first, second]) = first_overlap(&outlines, SLIVER) {
         let place = |number: usize| {
             let primitive = &valid.scene.geometry[valid.primitive_of(glass[number])];
-            let is_mesh = matches!(primitive, Geometry::Mesh(_));
-            let key = if is_mesh { "obj" } else { "vertices" };
-            valid.place_of(glass[number]).key(key)
+            let place = valid.place_of(glass[number]);
+            match primitive {
+                Geometry::Mesh(_) => place.key("obj"),
+                Geometry::Cuboid(_) => place,
+                _ => place.key("vertices"),
+            }
         };
         let problem = Problem::new(place(second), Glass::Touches);
         problems.push(problem.also(place(first)));

@@ -18,17 +18,16 @@ pub(super) fn is_coloured(scatter: &Scatter) -> bool {
 pub(super) struct DielectricLobe {
     /// For each surface `1 / ior` and `ior`, the index on the side opposite to the normal.
     refraction: Vec<[f64; 2]>,
-    /// True if one of them has a transmittance, which then is the tint of all.
+    /// True if any of these surfaces has a transmittance below 1. The tint of each is then its transmittance.
     coloured: bool,
 }
 
 impl DielectricLobe {
-    pub(super) fn new(surfaces: &[&Surface]) -> Self {
+    pub(super) fn new(surfaces: &[&Surface], coloured: bool) -> Self {
         let refraction = by_surface(surfaces, [1.0, 1.0], |scatter| match scatter {
             Scatter::Dielectric(glass) => Some([1.0 / glass.ior, glass.ior]),
             _ => None,
         });
-        let coloured = surfaces.iter().any(|surface| is_coloured(&surface.scatter));
         Self {
             refraction,
             coloured,

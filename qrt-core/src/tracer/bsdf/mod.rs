@@ -222,6 +222,7 @@ impl<const C: usize> ScatterStage<C> {
             ],
         };
         let pick = |rgb: Rgb| channels.map(|channel| rgb[channel]);
+        let coloured = surfaces.iter().any(|s| dielectric::is_coloured(&s.scatter));
         let mut lobes: Vec<(Range<u32>, Lobe<C>)> = Vec::new();
         for (number, surface) in (0..).zip(surfaces) {
             if let Some((run, lobe)) = lobes.last_mut()
@@ -235,7 +236,7 @@ impl<const C: usize> ScatterStage<C> {
                 Scatter::Black => continue,
                 Scatter::Lambertian(_) => Lobe::Lambertian,
                 Scatter::Mirror(_) => Lobe::Mirror,
-                Scatter::Dielectric(_) => Lobe::Dielectric(DielectricLobe::new(surfaces)),
+                Scatter::Dielectric(_) => Lobe::Dielectric(DielectricLobe::new(surfaces, coloured)),
                 Scatter::Ggx(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square, false)),
                 Scatter::Metal(metal) if metal.alpha == 0.0 => Lobe::Metal,
                 Scatter::Metal(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square, true)),
@@ -244,7 +245,6 @@ impl<const C: usize> ScatterStage<C> {
             };
             lobes.push((number..number + 1, lobe));
         }
-        let coloured = surfaces.iter().any(|s| dielectric::is_coloured(&s.scatter));
         Self {
             tint: surfaces
                 .iter()

@@ -50,6 +50,7 @@ problems! {
         NoCounterpart { renderer: &'static str, name: String, kind: &'static str } = NO_COUNTERPART
             { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
             help { Some(match *kind {
+                "metal" => "Mitsuba's metals take Fresnel's formulas: use `ggx`, or `mirror` for smooth metal".to_owned(),
                 "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),
                 _ => "a map and a value of one's own are qrt's alone: use another material".to_owned(),
             }) };
@@ -89,13 +90,14 @@ problems! {
             help "split it into two triangles";
         Crossing = CROSSING "the quad's edges cross"
             help "list the vertices in order around the outline";
-        Rounded = ZERO_AREA "the box loses its extent once rotated and moved"
-            help "rounding takes it: use a larger box or a smaller translation";
+        Thin = ZERO_AREA "the box is too thin: rounding decides where its faces look"
+            help "use a larger extent or a smaller translation, or write a quad";
         Far = MESH_RANGE "the box is out of range once rotated and moved"
             help "use smaller corners or a smaller translation";
-        NoVolume { axis: usize } = ZERO_AREA
-            { format!("the box has no extent along {}", ["x", "y", "z"][*axis % 3]) }
-            label "must exceed `min` in each coordinate" help "exchange the two, or write a quad"
+        NoVolume { axes: Vec<&'static str> } = ZERO_AREA
+            { format!("`max` does not exceed `min` along {}", listed(axes, "and")) }
+            label "must exceed `min` in each coordinate"
+            help "exchange these coordinates; what has no extent is a quad"
             also "the corner with the least coordinates";
     }
 

@@ -16,7 +16,7 @@ problems! {
             help "one expression means grey; three are red, green and blue";
         UnknownKey { key: String, noun: &'static str, keys: Vec<&'static str> } = UNKNOWN_KEY
             { format!("unknown key `{}` in {noun}", shorten(key)) }
-            help { called(noun, key).or_else(|| meant(key, keys)).or_else(|| {
+            help { called(noun, key, keys).or_else(|| meant(key, keys)).or_else(|| {
                 Some(format!("the keys of {noun} are {}", listed(keys, "and")))
             }) };
         MissingKeys { noun: &'static str, keys: Vec<&'static str> } = MISSING_KEY
@@ -35,10 +35,10 @@ problems! {
             }) };
         UnknownKind { name: String, noun: &'static str, kinds: Names } = UNKNOWN_VARIANT
             { format!("no kind of {} is called `{}`", without_article(noun), shorten(name)) }
-            help { called(noun, name).or_else(|| meant(name, kinds)).or_else(|| Some(format!("there are {}", listed(kinds, "and")))) };
+            help { called(noun, name, kinds).or_else(|| meant(name, kinds)).or_else(|| Some(format!("there are {}", listed(kinds, "and")))) };
         UnknownWord { word: String, noun: &'static str, words: Names } = UNKNOWN_WORD
             { format!("no {} is called `{}`", without_article(noun), shorten(word)) }
-            help { called(noun, word).or_else(|| meant(word, words)).or_else(|| Some(format!("write {}", listed(words, "or")))) };
+            help { called(noun, word, words).or_else(|| meant(word, words)).or_else(|| Some(format!("write {}", listed(words, "or")))) };
     }
 
     /// Problems with a single value.
