@@ -66,9 +66,9 @@ const OF_NODE: f64 = 2.0;
 /// The least fraction of the expected size that a circuit has: faces along the axes take fewer
 /// operations than those of the knot.
 const LEAST: f64 = 0.2;
-/// Qubits of an operation if all qubits are kept until the end, as in the knot, whose 142,875
-/// operations need 12.3 million qubits; and if a stage frees its qubits (55,496 in the knot).
-const KEPT_QUBITS: f64 = 86.0;
+/// Qubits of an operation if all qubits are kept until the end, as in the knot, whose 138,445
+/// operations need 9.1 million qubits; and if a stage frees its qubits (56,080 in the knot).
+const KEPT_QUBITS: f64 = 66.0;
 const FREED_QUBITS: f64 = 0.4;
 /// Operations that are compiled in a second: a round figure, for an estimate of minutes or hours.
 const COMPILED: f64 = 5e4;

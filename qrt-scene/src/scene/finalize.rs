@@ -2,21 +2,27 @@
 
 use super::shape::{Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
 use super::{
-    Data, DepthSampling, Jacobian, Lights, Material, Mesh, MeshFormat, Sampling, Scene, Sequence,
-    Sky, Square,
+    Data, DepthSampling, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square,
 };
 use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
 
-/// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The
-/// sum is clamped to the range, so that too large a sum is reported for the bits, not for a key
-/// that is not written.
-pub(super) fn path_bits(
+/// Lets all rays but the primary one sample lamps, if `depths` is a number (validation takes that
+/// back where a scene has no lamps). Sets `path_bits`, if it is not written, to the sum of all bits
+/// under the product lattice. The sum is clamped to the range, so that too large a sum is reported
+/// for the bits, not for a key that is not written.
+pub(super) fn sampling(
     mut sampling: Sampling,
     node: &Node,
     _: &Place<'_>,
     _: &mut Problems,
 ) -> Sampling {
+    let depths = node.entry("depths");
+    if depths.is_some_and(|entry| is_number(&entry.value)) && sampling.lights != Lights::None {
+        for depth in sampling.depths.iter_mut().skip(1) {
+            depth.light = Some(depth.bits);
+        }
+    }
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
         sampling.path_bits = sampling.lattice_bits().min(super::MAX_PATH_BITS);
     }
@@ -131,11 +137,6 @@ pub(super) fn scene(
     problems: &mut Problems,
 ) -> Scene {
     sample_lens(&mut scene);
-    let depths = node.entry("sampling");
-    let depths = depths.and_then(|entry| entry.value.entry("depths"));
-    if depths.is_some_and(|entry| is_number(&entry.value)) {
-        sample_lamps(&mut scene);
-    }
     if node.entry("accuracy").is_some() {
         for key in ["precision", "comparator", "counting"] {
             if node.entry(key).is_some() {
@@ -148,17 +149,6 @@ pub(super) fn scene(
         }
     }
     scene
-}
-
-/// Lets all rays but the primary one sample lamps, if the scene has a material that emits.
-fn sample_lamps(scene: &mut Scene) {
-    let mut materials = scene.materials.iter();
-    let has_lamps = materials.any(|(_, material)| matches!(material, Material::Emitter(_)));
-    if has_lamps && scene.sampling.lights != Lights::None {
-        for depth in scene.sampling.depths.iter_mut().skip(1) {
-            depth.light = Some(depth.bits);
-        }
-    }
 }
 
 fn is_number(node: &Node) -> bool {
@@ -267,8 +257,10 @@ mod tests {
 camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 40 }} }}
 film: {{ width: 1, height: 1 }}
 sky: {{ radiance: 1 }}
-materials: {{ m: {material} }}
-geometry: [{{ sphere: {{ center: [0, 0, 0], radius: 1, material: m }} }}]
+materials: {{ m: {material}, wall: {{ lambertian: {{ albedo: 0.5 }} }} }}
+geometry:
+- sphere: {{ center: [0, 0, 0], radius: 1, material: m }}
+- sphere: {{ center: [3, 0, 0], radius: 1, material: wall }}
 sampling: {{ {sampling} }}"
             );
             let parsed = crate::front::parse(&text, "n.yaml", &[], "".as_ref());

@@ -433,7 +433,7 @@ impl Mesh {
 record! {
     /// The paths of a pixel.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Sampling = "sampling", finalize = finalize::path_bits;
+    pub struct Sampling = "sampling", finalize = finalize::sampling;
     /// The sequence that turns path indices into points.
     pub sequence: Sequence = word::<Sequence>(), or Sequence::DigitalNet;
     /// R = 2^path_bits paths; default 12. Under product-lattice it is the sum of all bits, and

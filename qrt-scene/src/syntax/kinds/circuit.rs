@@ -27,7 +27,7 @@ problems! {
             help "write `mis`, whose weights never pass 1, or `auto`";
         NoReceiver = LIGHT_UNUSED
             "no surface reflects to more than single directions and tells how densely: none can \
-             sample a lamp" help "remove it";
+             sample a lamp" help "remove it, or write `lights: none`";
         TooManyIds { path: u32, comparator: u32, most: u32 } = TOO_MANY_IDS
             { format!("{path} path bits and {comparator} comparator bits make 2^{} indices: at most \
                 2^{most} fit", path.saturating_add(*comparator)) }
