@@ -49,7 +49,12 @@ fn main() {
             zenith: Some([0.5, 0.7, 1.0]),
             up: [0.0, 1.0, 0.0].into(),
         })
-        .material("ground", Lambertian { albedo: [0.5; 3] })
+        .material(
+            "ground",
+            Lambertian {
+                albedo: [0.5; 3].into(),
+            },
+        )
         .material("glass", Dielectric::clear(1.5))
         .quad("ground", ground);
     let mut random = Random(1);
@@ -70,9 +75,10 @@ fn main() {
         if kind < 0.8 {
             let (first, second) = (colour(), colour());
             let albedo = [0, 1, 2].map(|c| round(first[c] * second[c]));
+            let albedo = albedo.into();
             scene = scene.material(&name, Lambertian { albedo });
         } else if kind < 0.95 {
-            let reflectance = colour().map(|c| round(0.5 + 0.5 * c));
+            let reflectance = colour().map(|c| round(0.5 + 0.5 * c)).into();
             scene = scene.material(&name, Mirror { reflectance });
         } else {
             scene = scene.sphere("glass", center, 0.2);
@@ -81,10 +87,10 @@ fn main() {
         scene = scene.sphere(&name, center, 0.2);
     }
     let brown = Lambertian {
-        albedo: [0.4, 0.2, 0.1],
+        albedo: [0.4, 0.2, 0.1].into(),
     };
     let bronze = Mirror {
-        reflectance: [0.7, 0.6, 0.5],
+        reflectance: [0.7, 0.6, 0.5].into(),
     };
     let scene = scene
         .material("brown", brown)

@@ -80,7 +80,7 @@ pub use qrt_core::oracle::paths::PathScene;
 ///     .film(2, 2)
 ///     .path_bits(2)
 ///     .depth(1)
-///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3] })
+///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3].into() })
 ///     .quad("lamp", [[0., -9., 0.], [9., -9., 0.], [9., 9., 0.], [0., 9., 0.]])
 ///     .build();
 /// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::OracleOptions::default())?;
@@ -229,7 +229,7 @@ pub use qrt_runtime::path_machines::PathState;
 ///     .film(2, 2)
 ///     .path_bits(2)
 ///     .depth(1)
-///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3] })
+///     .material("lamp", Emitter { radiance: [1.0, 0.5, 0.0], albedo: [0.0; 3].into() })
 ///     .quad("lamp", [[0., -9., 0.], [9., -9., 0.], [9., 9., 0.], [0., 9., 0.]])
 ///     .build();
 /// let oracle = Oracle::rgb(&scene.validate("".as_ref())?, oracle::OracleOptions::default())?;
@@ -366,7 +366,7 @@ pub use qrt_scene::valid::{InvalidScene, ValidScene, validate};
 /// use qrt::prelude::*;
 ///
 /// let builder: SceneBuilder = Scene::builder("floor")
-///     .material("floor", Lambertian { albedo: [0.5; 3] })
+///     .material("floor", Lambertian { albedo: [0.5; 3].into() })
 ///     .triangle("floor", [[-1., 0., 1.], [1., 0., 1.], [0., 0., -1.]])
 ///     .counting(Counting { estimator: Estimator::Sine, ..Counting::default() });
 /// let mut scene: Scene = builder.build();

@@ -10,6 +10,7 @@ mod pictures {
 
     mod asked_accuracy;
     mod boxes_change_nothing;
+    mod checkers;
     mod counted_pictures;
     mod estimated_brightness;
     mod extremes;

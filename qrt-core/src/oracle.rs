@@ -154,6 +154,19 @@ pub enum OracleError {
         /// Least number of fraction bits that the sphere needs.
         needed: u32,
     },
+    /// The cells of a checker have too few bits.
+    SmallCell {
+        /// The name of the material.
+        material: String,
+        /// The kind of the material, such as `lambertian`.
+        kind: &'static str,
+        /// The key of the colour in the material, such as `albedo`.
+        key: &'static str,
+        /// Number of fraction bits of the circuit's numbers.
+        fraction: u32,
+        /// Least number of fraction bits that the cells need.
+        needed: u32,
+    },
 }
 
 impl fmt::Display for OracleError {

@@ -31,7 +31,7 @@ use glam::DVec3;
 use qrt_drawing::escaped;
 use qrt_scene::syntax::{Path, Problem, Renderer};
 use qrt_scene::valid::{Polygon, Scatter, Surface, ValidScene};
-use qrt_scene::{Camera, Film, Rgb, Sky};
+use qrt_scene::{Camera, Checker, Film, Reflectance, Rgb, Sky};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::fmt::{self, Write};
@@ -61,13 +61,16 @@ pub struct MeshFile {
     pub bytes: Vec<u8>,
 }
 
+/// The kind of a material whose checker Mitsuba cannot draw on some face.
+const CHECKER: &str = "checker";
+
 /// A material that Mitsuba does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("Mitsuba has no counterpart of the {kind} material `{name}`")]
 pub struct NoCounterpart {
     /// Name of the material in the scene.
     pub name: String,
-    /// `metal`, `phong` or `bsdf`.
+    /// `metal`, `phong` or `bsdf`; `checker` for one on a sphere or a slanted face.
     pub kind: &'static str,
 }
 
@@ -80,7 +83,11 @@ impl NoCounterpart {
             name: self.name.clone(),
             kind: self.kind,
         };
-        Problem::new(path.key(self.kind), what)
+        let path = match self.kind {
+            CHECKER => path,
+            kind => path.key(kind),
+        };
+        Problem::new(path, what)
     }
 }
 
@@ -88,8 +95,8 @@ impl NoCounterpart {
 /// `scalar_rgb` or `llvm_ad_rgb`. The mesh files are called `STEM.N.MATERIAL.ply`.
 ///
 /// # Errors
-/// If a face has a material that Mitsuba lacks: a `metal`, a `phong` with a specular part, or a
-/// user-defined `bsdf`.
+/// If a face has a material that Mitsuba lacks: a `metal`, a `phong` with a specular part, a
+/// user-defined `bsdf`, or a checker where the face is not parallel to two of the scene's axes.
 pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
     let depth = scene.scene().sampling.depths.len();
     let mut text = format!(
@@ -121,7 +128,9 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     for (index, (surface, faces)) in used.filter(|(_, (_, faces))| !faces.is_empty()) {
         // Mitsuba samples the points of a rectangle as evenly as its sampler's numbers are
         // distributed.
-        let is_lamp = |face: &&&Polygon| surface.emits() && is_parallelogram(face);
+        let checker = checker(surface);
+        let is_lamp =
+            |face: &&&Polygon| surface.emits() && checker.is_none() && is_parallelogram(face);
         let (lamps, faces): (Vec<_>, Vec<_>) = faces.iter().partition(is_lamp);
         let material = material(surface)?;
         for lamp in lamps {
@@ -143,7 +152,22 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
         text.push_str(&(shape + &material));
         meshes.push(MeshFile {
             file,
-            bytes: ply(&faces),
+            bytes: match checker {
+                None => ply(&faces, |_, _| None),
+                Some(checker) => {
+                    let cells: Option<Vec<[Cell; 2]>> =
+                        faces.iter().map(|face| cells(checker, face)).collect();
+                    let Some(cells) = cells else {
+                        return Err(NoCounterpart {
+                            name: surface.name.clone(),
+                            kind: CHECKER,
+                        });
+                    };
+                    ply(&faces, |face, corner| {
+                        Some(cells[face].map(|cell| cell.at(corner)))
+                    })
+                }
+            },
         });
     }
     for ball in scene.balls() {
@@ -154,6 +178,12 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
             Number(ball.radius)
         );
         let surface = &scene.surfaces()[ball.surface as usize];
+        if checker(surface).is_some() {
+            return Err(NoCounterpart {
+                name: surface.name.clone(),
+                kind: CHECKER,
+            });
+        }
         text.push_str(&(shape + &material(surface)?));
     }
     text.push_str("</scene>\n");
@@ -282,6 +312,51 @@ fn sensor(scene: &ValidScene) -> String {
     )
 }
 
+/// The checker of a surface's colour.
+fn checker(surface: &Surface) -> Option<&Checker> {
+    match &surface.scatter {
+        Scatter::Lambertian(matte) => matte.albedo.checker(),
+        Scatter::Mirror(mirror) => mirror.reflectance.checker(),
+        Scatter::Ggx(ggx) => ggx.reflectance.checker(),
+        _ => None,
+    }
+}
+
+/// A texture coordinate: half of a corner's coordinate in cells, with a constant added.
+#[derive(Clone, Copy)]
+struct Cell {
+    axis: usize,
+    density: f64,
+    shift: f64,
+}
+
+impl Cell {
+    fn at(self, corner: DVec3) -> f64 {
+        corner[self.axis] * self.density + self.shift
+    }
+}
+
+/// The texture coordinates of a face in one layer of cells: Mitsuba's checkerboard has two cells per
+/// unit. `None` if the face crosses layers along all axes, or along one alone.
+fn cells(checker: &Checker, face: &Polygon) -> Option<[Cell; 2]> {
+    let layers = checker.layers(face.outline());
+    let axes: Vec<usize> = (0..3).filter(|&axis| layers[axis].is_none()).collect();
+    let odd = layers
+        .iter()
+        .flatten()
+        .filter(|&&layer| Checker::is_odd(layer));
+    let [first, second] = axes[..] else {
+        return None;
+    };
+    let cell = |axis, shift| Cell {
+        axis,
+        density: 0.5 / checker.scale,
+        shift,
+    };
+    let shift = if odd.count() % 2 == 1 { 0.5 } else { 0.0 };
+    Some([cell(first, shift), cell(second, 0.0)])
+}
+
 /// Returns whether a face is a parallelogram, up to rounding.
 fn is_parallelogram(face: &Polygon) -> bool {
     let [v0, v1, v2, v3] = face.vertices;
@@ -306,16 +381,30 @@ fn square_to(face: &Polygon) -> String {
 fn material(surface: &Surface) -> Result<String, NoCounterpart> {
     let colour =
         |name: &str, value: Rgb| format!(r#"<rgb name="{name}" value="{}"/>"#, triple(value));
-    let diffuse = |albedo: Rgb| {
+    let reflected = |name: &str, value: Reflectance| match value.checker() {
+        None => colour(
+            name,
+            value.colours().concat().try_into().unwrap_or_default(),
+        ),
+        Some(&Checker {
+            of: [first, second],
+            ..
+        }) => format!(
+            r#"<texture type="checkerboard" name="{name}">{}{}</texture>"#,
+            colour("color0", first),
+            colour("color1", second)
+        ),
+    };
+    let diffuse = |albedo: Reflectance| {
         format!(
             r#"<bsdf type="diffuse">{}</bsdf>"#,
-            colour("reflectance", albedo)
+            reflected("reflectance", albedo)
         )
     };
-    let metal = |kind: &str, more: &str, reflectance: Rgb| {
+    let metal = |kind: &str, more: &str, reflectance: Reflectance| {
         format!(
             r#"<bsdf type="{kind}"><string name="material" value="none"/>{more}{}</bsdf>"#,
-            colour("specular_reflectance", reflectance)
+            reflected("specular_reflectance", reflectance)
         )
     };
     let none = |kind| NoCounterpart {
@@ -324,9 +413,11 @@ fn material(surface: &Surface) -> Result<String, NoCounterpart> {
     };
     let two_sided = |bsdf: String| format!(r#"<bsdf type="twosided">{bsdf}</bsdf>"#);
     let bsdf = match &surface.scatter {
-        Scatter::Black => two_sided(diffuse([0.0; 3])),
+        Scatter::Black => two_sided(diffuse([0.0; 3].into())),
         Scatter::Lambertian(matte) => two_sided(diffuse(matte.albedo)),
-        Scatter::Phong(phong) if phong.specular == [0.0; 3] => two_sided(diffuse(phong.diffuse)),
+        Scatter::Phong(phong) if phong.specular == [0.0; 3] => {
+            two_sided(diffuse(phong.diffuse.into()))
+        }
         Scatter::Mirror(mirror) => two_sided(metal("conductor", "", mirror.reflectance)),
         Scatter::Ggx(ggx) => {
             let more = format!(
@@ -377,35 +468,46 @@ impl fmt::Display for Number {
 }
 
 /// Writes a binary PLY file of triangles. Equal vertices are shared. A quad is split along v0 - v2.
-fn ply(faces: &[&Polygon]) -> Vec<u8> {
-    let mut vertices: Vec<DVec3> = Vec::new();
+fn ply(faces: &[&Polygon], uv: impl Fn(usize, DVec3) -> Option<[f64; 2]>) -> Vec<u8> {
+    let mut vertices: Vec<(DVec3, Option<[f64; 2]>)> = Vec::new();
     let mut numbers = HashMap::new();
     let mut triangles: Vec<[u32; 3]> = Vec::new();
-    for face in faces {
-        let corners = &face.vertices[..usize::from(face.corners).min(4)];
-        let corners: Vec<u32> = corners
-            .iter()
-            .map(|corner| {
-                let key = corner.to_array().map(f64::to_bits);
-                *numbers.entry(key).or_insert_with(|| {
-                    vertices.push(*corner);
-                    (vertices.len() - 1) as u32
-                })
+    for (face, polygon) in faces.iter().enumerate() {
+        let corners = polygon.outline().iter().map(|&corner| {
+            let uv = uv(face, corner);
+            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+            let key = (bits(&corner.to_array()), uv.map(|uv| bits(&uv)));
+            *numbers.entry(key).or_insert_with(|| {
+                vertices.push((corner, uv));
+                (vertices.len() - 1) as u32
             })
-            .collect();
+        });
+        let corners: Vec<u32> = corners.collect();
         if let Some((&first, rest)) = corners.split_first() {
             triangles.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
         }
     }
+    let has_uv = vertices.iter().any(|(_, uv)| uv.is_some());
+    let uv = if has_uv {
+        "property double u\nproperty double v\n"
+    } else {
+        ""
+    };
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
-         property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+         property double z\n{uv}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         vertices.len(),
         triangles.len()
     )
     .into_bytes();
-    for value in vertices.iter().flat_map(DVec3::to_array) {
-        bytes.extend(value.to_le_bytes());
+    for (corner, uv) in vertices {
+        for value in corner
+            .to_array()
+            .into_iter()
+            .chain(uv.into_iter().flatten())
+        {
+            bytes.extend(value.to_le_bytes());
+        }
     }
     for triangle in &triangles {
         bytes.push(3);

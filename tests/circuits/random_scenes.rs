@@ -25,15 +25,34 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
     let surfaces = 1 + numbers.below(5);
     for number in 0..surfaces {
         let rgb = [(); 3].map(|()| fraction(numbers));
-        let material = match numbers.below(if number == 0 { 1 } else { 6 }) {
+        let mut reflected = || {
+            let other = [(); 3].map(|()| fraction(numbers));
+            match numbers.below(3) {
+                0 => format!(
+                    "{{ checker: {{ of: [{rgb:?}, {other:?}], scale: 0.{} }} }}",
+                    5 + numbers.below(5)
+                ),
+                _ => format!("{rgb:?}"),
+            }
+        };
+        let reflected = reflected();
+        let material = match numbers.below(if number == 0 { 1 } else { 8 }) {
             0 => format!("emitter: {{ radiance: {:?} }}", rgb.map(|c| 4.0 * c + 0.5)),
-            1 => format!("mirror: {{ reflectance: {rgb:?} }}"),
+            1 => format!("mirror: {{ reflectance: {reflected} }}"),
             2 => format!("dielectric: {{ ior: 1.{} }}", 1 + numbers.below(8)),
             3 => format!(
-                "ggx: {{ reflectance: {rgb:?}, alpha: 0.{} }}",
+                "dielectric: {{ ior: 1.{}, transmittance: {rgb:?} }}",
+                1 + numbers.below(8)
+            ),
+            4 => format!(
+                "ggx: {{ reflectance: {reflected}, alpha: 0.{} }}",
                 2 + numbers.below(7)
             ),
-            _ => format!("lambertian: {{ albedo: {rgb:?} }}"),
+            5 => format!(
+                "metal: {{ reflectance: {reflected}, alpha: {} }}",
+                ["0", "0.4", "0.7"][numbers.below(3)]
+            ),
+            _ => format!("lambertian: {{ albedo: {reflected} }}"),
         };
         let _ = writeln!(text, "  m{number}: {{ {material} }}");
     }

@@ -270,6 +270,13 @@ fn what_mitsuba_cannot_show_is_refused_where_it_is_written() {
         errors.contains("no counterpart of the `bsdf` of `glass`"),
         "{errors}"
     );
+    // This face is parallel to one axis alone.
+    let checker = "{ lambertian: { albedo: { checker: { of: [0.9, 0.1], scale: 1 } } } }";
+    fs::write(folder.path("s.yaml"), scene(checker)).unwrap();
+    let errors = folder.fails(2, &["export", "s.yaml", "--format", "mitsuba"]);
+    for part in ["s.yaml:8:", "no counterpart of the `checker` of `glass`"] {
+        assert!(errors.contains(part), "{errors}");
+    }
 
     for (more, says) in [
         (&["--pixel", "1,1"][..], "--pixel is of a pixel's circuit"),

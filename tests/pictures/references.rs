@@ -183,6 +183,11 @@ fn boxes_and_coloured_glass_agree() {
 }
 
 #[test]
+fn checkers_agree() {
+    agrees("tiles", 14, 0.01);
+}
+
+#[test]
 fn spheres_through_a_lens_agree() {
     agrees("lensed", 14, 0.01);
 }

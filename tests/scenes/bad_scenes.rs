@@ -117,7 +117,7 @@ const ELSEWHERE: [&str; 22] = [
     codes::NUMBER_TOO_WIDE,
     codes::TOO_MANY_FACES,
     codes::SPHERE_IN_TABLE,
-    codes::SMALL_SPHERE,
+    codes::SMALL_PART,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
     codes::UNUSED_MATERIAL,

@@ -134,6 +134,9 @@ impl Arith for Path<'_> {
     fn less_equal(&mut self, a: f64, b: f64) -> bool {
         a <= b
     }
+    fn odd(&mut self, a: f64) -> bool {
+        qrt_scene::Checker::is_odd(a)
+    }
     fn and(&mut self, a: bool, b: bool) -> bool {
         a && b
     }

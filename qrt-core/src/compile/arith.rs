@@ -133,6 +133,9 @@ impl Arith for Builder<'_> {
     fn less_equal(&mut self, a: RealValue, b: RealValue) -> BoolValue {
         self.is_less(b, a).negated()
     }
+    fn odd(&mut self, a: RealValue) -> BoolValue {
+        self.is_odd(a)
+    }
     fn and(&mut self, a: BoolValue, b: BoolValue) -> BoolValue {
         self.both(a, b)
     }

@@ -4,6 +4,7 @@ use super::table::joined;
 use super::value::{BoolValue, RealValue, Tabulated, Truth};
 use super::{Builder, negative_range};
 use qrt_circuit::{Bit, Op, Operand, Type};
+use qrt_scene::Checker;
 
 /// The fewest address bits of a table with one marked row that is compared bit by bit.
 ///
@@ -248,6 +249,32 @@ impl Builder<'_> {
         self.truth_of(Bit {
             register: word.register,
             index: word.width - 1,
+            inverted: false,
+        })
+    }
+
+    /// True if `floor(a)` is odd: the bit of weight 1.
+    pub(super) fn is_odd(&mut self, a: RealValue) -> BoolValue {
+        if let Some(table) = self.table_of(a) {
+            return self.tabulated_truth(table.map(|entry| f64::from(Checker::is_odd(entry))));
+        }
+        let fraction = self.fraction();
+        let (operand, range) = self.operand(a);
+        let cells = range.map(|end| end >> fraction);
+        let word = match operand {
+            Operand::Word(word) if cells[0] < cells[1] => word,
+            _ => return BoolValue::Constant(cells[0] & 1 == 1),
+        };
+        if fraction < word.shift {
+            return BoolValue::Constant(false);
+        }
+        let bit = fraction - word.shift;
+        if bit >= word.width && !word.signed {
+            return BoolValue::Constant(false);
+        }
+        self.truth_of(Bit {
+            register: word.register,
+            index: word.offset + bit.min(word.width - 1),
             inverted: false,
         })
     }

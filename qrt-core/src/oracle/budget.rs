@@ -83,6 +83,17 @@ impl OracleError {
                 let what = Circuit::SmallSphere { fraction, needed };
                 Problem::new(place.key("radius"), what)
             }
+            &Self::SmallCell {
+                ref material,
+                kind,
+                key,
+                fraction,
+                needed,
+            } => {
+                let place = root.key("materials").key(material).key(kind).key(key);
+                let what = Circuit::SmallCell { fraction, needed };
+                Problem::new(place.key("checker").key("scale"), what)
+            }
         }
     }
 }

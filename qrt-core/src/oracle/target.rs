@@ -3,16 +3,21 @@
 use super::{DEFAULT_FRACTION, OracleError, OracleOptions, faces};
 use crate::compile::{Strategy, Target};
 use crate::tracer::{Stage, StageBall};
+use qrt_scene::Material;
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::{Ball, ValidScene};
 
 /// Least radius of a sphere, in units in the last place: a hit is then off by less than a tenth of it.
 const LEAST_RADIUS: f64 = 16.0;
 
+/// Least edge of a checker's cell, in units in the last place: a hit, which is off by a few units, is
+/// then in a wrong cell only near its ends.
+const LEAST_CELL: f64 = 16.0;
+
 /// The settings with which a program of `scene` is built.
 ///
 /// # Errors
-/// A sphere is too small for the scene's fraction bits.
+/// A sphere or the cells of a checker are too small for the scene's fraction bits.
 pub(super) fn target<'a, const C: usize>(
     scene: &ValidScene,
     stage: &Stage<C>,
@@ -33,6 +38,9 @@ pub(super) fn target<'a, const C: usize>(
             needed: fraction + more,
         });
     }
+    if let Some(error) = small_cell(scene, stage, fraction) {
+        return Err(error);
+    }
     Ok(Target {
         fraction,
         strategy,
@@ -41,5 +49,30 @@ pub(super) fn target<'a, const C: usize>(
         pixel: options.pixel,
         faces: faces(stage),
         passes: options.passes,
+    })
+}
+
+/// The error of the smallest cells of a checker, if they are too small.
+fn small_cell<const C: usize>(
+    scene: &ValidScene,
+    stage: &Stage<C>,
+    fraction: u32,
+) -> Option<OracleError> {
+    let (surface, edge) = stage.smallest_cell()?;
+    let edge = edge * (1_u64 << fraction) as f64;
+    if edge >= LEAST_CELL {
+        return None;
+    }
+    let (name, material) = scene.scene().materials.get(surface)?;
+    let key = match material {
+        Material::Lambertian(_) | Material::Emitter(_) => "albedo",
+        _ => "reflectance",
+    };
+    Some(OracleError::SmallCell {
+        material: name.clone(),
+        kind: material.kind(),
+        key,
+        fraction,
+        needed: fraction + (LEAST_CELL / edge).log2().ceil() as u32,
     })
 }

@@ -246,6 +246,8 @@ pub trait Arith: Sized {
     fn less(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool;
     /// `a <= b`
     fn less_equal(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool;
+    /// True if `floor(a)` is odd.
+    fn odd(&mut self, a: Self::Real) -> Self::Bool;
     /// `a && b`, both of which are computed.
     fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool;
     /// `a || b`, both of which are computed.

@@ -99,6 +99,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             cos_theta: zero,
             front: alive,
             surface,
+            tint: surface,
             alive,
         };
         let emits = if counts {
@@ -149,6 +150,9 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
                 from: cx.entry(&stage.geometry.plane_of, hit.face),
             };
             vertex.stand(&frame);
+            if let Some(checkers) = &stage.checkers {
+                vertex.tint = checkers.row(cx, &leaves.origin, hit.face, surface);
+            }
             cx.leave();
             let light = cx.apart(Lighting {
                 lights,
@@ -172,15 +176,21 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             None => frame(cx, stage, hit.face, round.as_ref()),
         };
         vertex.stand(&frame);
+        let pattern = stage.checkers.as_ref().filter(|_| known.is_none());
         let origin = if cx.recomputes() {
             // The start is a part of its own, after which the previous ray is no longer needed.
             let origin = start(cx, &ray, hit.distance, &frame);
             cx.leave();
             cx.enter(TracerPart::GenerateRay(depth + 1));
             Some(origin)
+        } else if pattern.is_some() {
+            Some(start(cx, &ray, hit.distance, &frame))
         } else {
             None
         };
+        if let (Some(checkers), Some(origin)) = (pattern, &origin) {
+            vertex.tint = checkers.row(cx, origin, hit.face, surface);
+        }
         let scattered = scatter.scatter(cx, &vertex);
         let origin = match origin {
             Some(origin) => origin,

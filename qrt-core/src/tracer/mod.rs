@@ -27,6 +27,7 @@ mod ball_ray;
 mod bound;
 mod bsdf;
 mod camera;
+mod checker;
 mod compiled;
 mod convex;
 mod crossing;

@@ -66,6 +66,9 @@ impl Arith for Scalar {
     fn truth(&mut self, value: bool) -> bool {
         value
     }
+    fn odd(&mut self, a: f64) -> bool {
+        qrt_scene::Checker::is_odd(a)
+    }
     fn and(&mut self, a: bool, b: bool) -> bool {
         a && b
     }

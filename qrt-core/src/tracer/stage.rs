@@ -1,8 +1,9 @@
 //! A scene prepared for the tracer.
 
 use super::ball_ray::Round;
-use super::bsdf::{Emitters, ScatterStage, rank};
+use super::bsdf::{self, Emitters, ScatterStage, rank};
 use super::camera::{self, CameraStage, LensStage};
+use super::checker::Checkers;
 use super::geometry::StageGeometry;
 use super::lights::{Lamps, LightSampling, LightStage};
 use super::pixel_class::PixelClass;
@@ -42,6 +43,8 @@ pub struct Stage<const C: usize> {
     /// By face: the centre of its sphere and the inverse of the radius; zeros for a polygon. Empty
     /// without spheres.
     pub(crate) balls: Vec<[f64; 4]>,
+    /// The choice among the colours of surfaces that have two.
+    pub(crate) checkers: Option<Checkers>,
     pub(crate) emitters: Emitters<C>,
     /// The light of directions in which nothing stands.
     pub(crate) sky: Option<SkyStage<C>>,
@@ -103,6 +106,11 @@ impl<const C: usize> Stage<C> {
         let mut geometry = StageGeometry::new(scene.polygons(), scene.balls(), emits, &starts);
         let written_surfaces = scene.surface_of_faces();
         let surface_of: Vec<u32> = written_surfaces.map(|s| place[s as usize]).collect();
+        let checked: Vec<_> = surfaces
+            .iter()
+            .map(|surface| bsdf::checker(surface))
+            .collect();
+        let checkers = Checkers::new(&geometry, scene.polygons(), &surface_of, &checked);
         let emitters = Emitters::new(&surfaces, channels);
         let sky = written
             .sky
@@ -196,6 +204,7 @@ impl<const C: usize> Stage<C> {
             normals,
             frames: rows,
             balls,
+            checkers,
             emitters,
             every_hit: sky.is_some(),
             sky,
@@ -324,6 +333,12 @@ impl<const C: usize> Stage<C> {
             })
         };
         self.order.iter().map(value).collect()
+    }
+
+    /// The smallest cells of a checker: their surface in the scene, and their edge in stage units.
+    pub(crate) fn smallest_cell(&self) -> Option<(usize, f64)> {
+        let (number, edge) = self.checkers.as_ref()?.smallest();
+        Some((self.order[number], edge))
     }
 
     /// The unit normal of a polygon's front, by its label; zeros for a sphere.

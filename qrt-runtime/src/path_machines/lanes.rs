@@ -7,6 +7,7 @@
 use crate::path_machines::masks::bits;
 use pulp::bytemuck;
 use qrt_core::tracer::{Arith, Coordinate, Sampled, Segment, Work};
+use qrt_scene::Checker;
 use qrt_scene::expr::Function;
 use qrt_scene::sampling::cell_centre;
 use std::cell::RefCell;
@@ -314,6 +315,13 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
     #[inline(always)]
     fn less_equal(&mut self, a: Self::Real, b: Self::Real) -> Self::Bool {
         each!(self, less_than_or_equal_f64s, a, b)
+    }
+    #[inline(always)]
+    fn odd(&mut self, a: Self::Real) -> Self::Bool {
+        let mut odd = a;
+        apply(slots(&mut odd), |x| f64::from(Checker::is_odd(x)));
+        let half = self.real(0.5);
+        self.less(half, odd)
     }
     #[inline(always)]
     fn and(&mut self, a: Self::Bool, b: Self::Bool) -> Self::Bool {

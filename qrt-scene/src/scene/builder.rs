@@ -110,8 +110,8 @@ impl Scene {
     /// let scene = Scene::builder("lit floor")
     ///     .camera(Perspective { eye: [0.0, 1.0, 2.0].into(), ..Perspective::default() })
     ///     .film(8, 6)
-    ///     .material("floor", Lambertian { albedo: [0.8, 0.5, 0.2] })
-    ///     .material("sky", Emitter { radiance: [1.0; 3], albedo: [0.0; 3] })
+    ///     .material("floor", Lambertian { albedo: [0.8, 0.5, 0.2].into() })
+    ///     .material("sky", Emitter { radiance: [1.0; 3], albedo: [0.0; 3].into() })
     ///     .quad("floor", [[-9., 0., 9.], [9., 0., 9.], [9., 0., -9.], [-9., 0., -9.]])
     ///     .quad("sky", [[-9., 5., -9.], [9., 5., -9.], [9., 5., 9.], [-9., 5., 9.]])
     ///     .sampling(Sampling {

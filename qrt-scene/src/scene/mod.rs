@@ -11,6 +11,7 @@ pub(crate) mod decode;
 pub(crate) mod finalize;
 pub mod meshes;
 mod record;
+mod reflectance;
 #[cfg(feature = "serde")]
 mod serde;
 pub(crate) mod shape;
@@ -24,6 +25,8 @@ pub use builder::SceneBuilder;
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
+pub use reflectance::Reflectance;
+use reflectance::{PAIR, REFLECTED, ReflectanceShape};
 use shape::{
     Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Part, Text,
     number, part, point, whole, word,
@@ -41,8 +44,6 @@ pub const MAX_PATH_BITS: u32 = 52;
 /// Linear RGB.
 pub type Rgb = [f64; 3];
 
-const REFLECTANCE: Colour =
-    Colour(number(0.0, 1.0).or(|value, range| Datum::NotAlbedo { value, range }));
 const RADIANCE: Colour =
     Colour(number(0.0, LARGEST).or(|value, range| Datum::NotRadiance { value, range }));
 const LENGTH: Number = number(0.0, LARGEST).above();
@@ -201,8 +202,8 @@ record! {
     /// Matte, on both sides: albedo / pi.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Lambertian = "a lambertian material";
-    /// The share of light that is reflected, in linear RGB.
-    pub albedo: Rgb = REFLECTANCE;
+    /// The share of light that is reflected, in linear RGB: a colour or a pattern.
+    pub albedo: Reflectance = ReflectanceShape;
 }
 
 record! {
@@ -211,16 +212,37 @@ record! {
     pub struct Emitter = "an emitter";
     /// The radiance that leaves the front, in linear RGB. The picture's values have the same unit.
     pub radiance: Rgb = RADIANCE;
-    /// The share of light that is reflected, in linear RGB; default black.
-    pub albedo: Rgb = REFLECTANCE, or [0.0; 3];
+    /// The share of light that is reflected, in linear RGB: a colour or a pattern;
+    /// default black.
+    pub albedo: Reflectance = ReflectanceShape, or Reflectance::Uniform([0.0; 3]);
 }
 
 record! {
     /// A perfect mirror, on both sides.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mirror = "a mirror";
-    /// The share of light that is reflected, in linear RGB.
-    pub reflectance: Rgb = REFLECTANCE;
+    /// The share of light that is reflected, in linear RGB: a colour or a pattern.
+    pub reflectance: Reflectance = ReflectanceShape;
+}
+
+variant! {
+    /// Colours by the place on a surface.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Pattern = "a pattern";
+    /// Two colours in turn, in cubic cells.
+    Checker(Checker) = "checker";
+}
+
+record! {
+    /// Two colours in turn, in cubic cells along the scene's axes. One cell has a corner at the
+    /// scene's origin, lies on the positive side of all axes, and has the first colour. A face that
+    /// lies between two layers of cells has the colours of the layer with the greater coordinates.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Checker = "a checker";
+    /// The two colours, in linear RGB.
+    pub of: [Rgb; 2] = PAIR;
+    /// The length of a cell's edges, in scene units.
+    pub scale: f64 = LENGTH;
 }
 
 record! {
@@ -231,7 +253,7 @@ record! {
     pub ior: f64 = number(1e-3, 1e3);
     /// Fraction of the transmitted light that each crossing of the surface keeps, in linear RGB;
     /// default white, clear glass.
-    pub transmittance: Rgb = REFLECTANCE, or [1.0; 3];
+    pub transmittance: Rgb = REFLECTED, or [1.0; 3];
 }
 
 impl Dielectric {
@@ -250,16 +272,16 @@ record! {
     pub struct Ggx = "a ggx material";
     /// Roughness: above 0 (a mirror) and at most 1.
     pub alpha: f64 = number(0.0, 1.0).above();
-    /// The colour of the reflection, in linear RGB.
-    pub reflectance: Rgb = REFLECTANCE;
+    /// The colour of the reflection, in linear RGB: a colour or a pattern.
+    pub reflectance: Reflectance = ReflectanceShape;
 }
 
 record! {
     /// Metal, smooth or rough: its reflectance grows to 1 towards grazing angles, by Schlick's formula.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Metal = "a metal";
-    /// The share of light that is reflected along the normal, in linear RGB.
-    pub reflectance: Rgb = REFLECTANCE;
+    /// The share of light that is reflected along the normal, in linear RGB: a colour or a pattern.
+    pub reflectance: Reflectance = ReflectanceShape;
     /// Roughness: 0 (smooth, the default) to 1, as that of `ggx`.
     pub alpha: f64 = number(0.0, 1.0), or 0.0;
 }
@@ -270,10 +292,10 @@ record! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Phong = "a phong material";
     /// The share kd that is reflected to all sides, in linear RGB.
-    pub diffuse: Rgb = REFLECTANCE;
+    pub diffuse: Rgb = REFLECTED;
     /// The share ks of the highlight, in linear RGB. In each channel, diffuse + specular is at
     /// most 1.
-    pub specular: Rgb = REFLECTANCE;
+    pub specular: Rgb = REFLECTED;
     /// The exponent n: the larger, the narrower the highlight.
     pub exponent: f64 = number(0.0, 1e6);
 }

@@ -340,7 +340,9 @@ impl<'a> Build<'a> {
                 continue;
             }
             own.push(self.surfaces.len() as u32);
-            let black = Material::Lambertian(Lambertian { albedo: [0.0; 3] });
+            let black = Material::Lambertian(Lambertian {
+                albedo: [0.0; 3].into(),
+            });
             let meant = match &material.material {
                 Ok(meant) => meant,
                 Err(error) => {

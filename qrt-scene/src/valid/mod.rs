@@ -24,7 +24,9 @@ use crate::expr::Expr;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
-use crate::scene::{Bsdf, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Rgb, Scene};
+use crate::scene::{
+    Bsdf, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Reflectance, Rgb, Scene,
+};
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
@@ -243,15 +245,21 @@ impl ValidScene {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
             let (kind, values) = match &surface.scatter {
-                Scatter::Lambertian(Lambertian { albedo }) => (0, albedo.to_vec()),
-                // User-defined BSDFs are the scene's alone.
+                Scatter::Lambertian(Lambertian { albedo }) => (0, albedo.colours().concat()),
+                // User-defined BSDFs and patterns are the scene's alone.
                 Scatter::Black | Scatter::Custom(_) => (0, vec![0.0; 3]),
-                Scatter::Mirror(mirror) => (1, mirror.reflectance.to_vec()),
+                Scatter::Mirror(mirror) => (1, mirror.reflectance.colours().concat()),
                 Scatter::Dielectric(glass) => {
                     (2, [&[glass.ior], &glass.transmittance[..]].concat())
                 }
-                Scatter::Ggx(ggx) => (3, [&[ggx.alpha], &ggx.reflectance[..]].concat()),
-                Scatter::Metal(metal) => (5, [&[metal.alpha], &metal.reflectance[..]].concat()),
+                Scatter::Ggx(ggx) => (
+                    3,
+                    [&[ggx.alpha], &ggx.reflectance.colours().concat()[..]].concat(),
+                ),
+                Scatter::Metal(metal) => (
+                    5,
+                    [&[metal.alpha], &metal.reflectance.colours().concat()[..]].concat(),
+                ),
                 Scatter::Phong(phong) => {
                     let colours = [phong.diffuse, phong.specular].concat();
                     (4, [&colours[..], &[phong.exponent]].concat())
@@ -409,8 +417,8 @@ fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
 }
 
 /// Returns a Lambertian, or black if nothing is reflected: the path then ends.
-fn matte(albedo: Rgb) -> Scatter {
-    if albedo == [0.0; 3] {
+fn matte(albedo: Reflectance) -> Scatter {
+    if albedo.is_black() {
         Scatter::Black
     } else {
         Scatter::Lambertian(Lambertian { albedo })

@@ -20,7 +20,7 @@ fn scenes_built_in_rust_are_checked_like_others() {
     assert_eq!(codes_of(scene()), [""; 0]);
     let matte = |albedo| {
         Material::Lambertian(Lambertian {
-            albedo: [albedo; 3],
+            albedo: [albedo; 3].into(),
         })
     };
     let mut doubled = scene();

@@ -150,6 +150,7 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
         let path = format!("{path}.{name}");
         let missing = match (default(part), is_required(schema, name)) {
             (Some(default), _) => format!("; default `{default}`"),
+            (None, _) if is_variant(schema) => String::new(),
             (None, true) => "; required".to_owned(),
             (None, false) => "; may be left out".to_owned(),
         };
@@ -167,8 +168,10 @@ fn keys(page: &mut String, path: &str, schema: &Value, indent: &str) {
         if let Some(item) = items(part).filter(|item| item.get("properties").is_some()) {
             keys(page, &path, item, &inner);
         }
-        if part.get("properties").is_some() {
-            keys(page, &path, part, &inner);
+        let choices = part.get("anyOf").and_then(Value::as_sequence);
+        let blocks = choices.into_iter().flatten().chain([part]);
+        for block in blocks.filter(|block| block.get("properties").is_some()) {
+            keys(page, &path, block, &inner);
         }
     }
 }

@@ -96,6 +96,12 @@ pub(crate) fn kind(schema: &Value) -> String {
             [colour, grey] if is_type(colour, "array") && is_type(grey, "number") => {
                 format!("{}; or one number, which is grey", kind(colour))
             }
+            [colour, grey, pattern] if is_type(grey, "number") && is_type(pattern, "object") => {
+                format!(
+                    "{}; or one number, which is grey; or a pattern",
+                    kind(colour)
+                )
+            }
             [list, count] if is_type(list, "array") && is_type(count, "integer") => {
                 format!("{}; or a {}", kind(list), kind(count))
             }

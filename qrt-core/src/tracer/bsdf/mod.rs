@@ -30,7 +30,7 @@ use ggx::GgxLobe;
 use map::{DepthMap, Mapped};
 use phong::PhongLobe;
 use qrt_scene::valid::{Scatter, Surface};
-use qrt_scene::{Map, Rgb};
+use qrt_scene::{Checker, Map, Reflectance, Rgb};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::sync::Arc;
@@ -124,16 +124,27 @@ fn tables(scatter: &Scatter) -> usize {
 }
 
 /// The factor of a weight that is looked up by surface. `coloured` tells whether any glass has one.
-fn tint(scatter: &Scatter, coloured: bool) -> Rgb {
+fn tint(scatter: &Scatter, coloured: bool) -> Reflectance {
     match scatter {
-        Scatter::Dielectric(glass) if coloured => glass.transmittance,
+        Scatter::Dielectric(glass) if coloured => glass.transmittance.into(),
         Scatter::Lambertian(lobe) => lobe.albedo,
         Scatter::Mirror(lobe) => lobe.reflectance,
         Scatter::Ggx(lobe) => lobe.reflectance,
         Scatter::Metal(lobe) => lobe.reflectance,
         Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
-            [0.0; 3]
+            [0.0; 3].into()
         }
+    }
+}
+
+/// The checker of a surface's colour, if it has one.
+pub(crate) fn checker(surface: &Surface) -> Option<&Checker> {
+    match &surface.scatter {
+        Scatter::Lambertian(lobe) => lobe.albedo.checker(),
+        Scatter::Mirror(lobe) => lobe.reflectance.checker(),
+        Scatter::Ggx(lobe) => lobe.reflectance.checker(),
+        Scatter::Metal(lobe) => lobe.reflectance.checker(),
+        Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => None,
     }
 }
 
@@ -184,8 +195,11 @@ struct Sample<'a, A: Arith, const C: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct ScatterStage<const C: usize> {
     square: Square,
-    /// The factor of the weight of each surface, per channel.
+    /// The factor of the weight of each surface, per channel; then, if any has two, the second of
+    /// each.
     tint: Arc<[[f64; C]]>,
+    /// The number of surfaces.
+    surfaces: usize,
     /// The surfaces that scatter, with their lobes; depths with one square share them.
     lobes: Arc<[(Range<u32>, Lobe<C>)]>,
     /// True if any lobe uses the depth's map.
@@ -245,11 +259,17 @@ impl<const C: usize> ScatterStage<C> {
             };
             lobes.push((number..number + 1, lobe));
         }
+        let tints = surfaces.iter().map(|s| tint(&s.scatter, coloured));
+        let tints: Vec<Reflectance> = tints.collect();
+        let first = |tint: &Reflectance| tint.colours().first().copied().unwrap_or_default();
+        let last = |tint: &Reflectance| tint.colours().last().copied().unwrap_or_default();
+        let mut rows: Vec<[f64; C]> = tints.iter().map(|tint| pick(first(tint))).collect();
+        if tints.iter().any(|tint| tint.checker().is_some()) {
+            rows.extend(tints.iter().map(|tint| pick(last(tint))));
+        }
         Self {
-            tint: surfaces
-                .iter()
-                .map(|s| pick(tint(&s.scatter, coloured)))
-                .collect(),
+            tint: rows.into(),
+            surfaces: surfaces.len(),
             uses_map: lobes.iter().any(|(_, lobe)| lobe.uses_map()),
             asks_for_angles: lobes.iter().any(|(_, lobe)| lobe.asks_for_angles()),
             lobes: lobes.into(),
@@ -277,10 +297,19 @@ impl<const C: usize> ScatterStage<C> {
         self.lights = lights;
     }
 
+    /// The greatest factor of surface `number`: that of the brighter colour in each channel.
+    fn greatest_tint(&self, number: usize) -> [f64; C] {
+        let first = self.tint[number];
+        match self.tint.get(self.surfaces + number) {
+            Some(second) => std::array::from_fn(|c| first[c].max(second[c])),
+            None => first,
+        }
+    }
+
     /// The greatest weight of surface `number` towards this depth; 0 where nothing scatters.
     pub(crate) fn weight_bound(&self, number: u32) -> [f64; C] {
         let factor = self.square.map.factor_bound();
-        let tint = self.tint[number as usize];
+        let tint = self.greatest_tint(number as usize);
         match self.lobe(number) {
             None => [0.0; C],
             Some(Lobe::Lambertian) => tint.map(|albedo| albedo * factor),
@@ -383,7 +412,7 @@ impl<const C: usize> ScatterStage<C> {
         towards: &Towards<A>,
         lights: &LightStage<C>,
     ) -> Lit<A, C> {
-        let tint = cx.rows(&self.tint, at.surface);
+        let tint = cx.rows(&self.tint, at.tint);
         let (zero, one) = (cx.real(0.0), cx.real(1.0));
         let projected = self.square.map.is_projected();
         let (mut lit, mut way) = (None, None);
@@ -456,7 +485,7 @@ impl<const C: usize> ScatterStage<C> {
                 factor: zero,
             },
             outgoing: [zero; 3],
-            tint: cx.rows(&self.tint, at.surface),
+            tint: cx.rows(&self.tint, at.tint),
             asks_for_density: self.asks_for_densities(),
         };
         if self.uses_map {

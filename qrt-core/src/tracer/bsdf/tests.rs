@@ -54,6 +54,7 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
             cos_theta: arriving[2],
             front: arriving[2] < 0.0,
             surface: 0,
+            tint: 0,
             alive: true,
         };
         let scattered = self.stage.scatters[0].scatter(&mut Scalar::at(cell), &vertex);

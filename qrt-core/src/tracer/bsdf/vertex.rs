@@ -16,6 +16,8 @@ pub(crate) struct Vertex<A: Arith> {
     /// True if the viewer sees the front of the surface.
     pub(crate) front: A::Bool,
     pub(crate) surface: A::Index,
+    /// The row of the surface's colour: its number, or the row of its second colour.
+    pub(crate) tint: A::Index,
     /// True for paths that have not ended.
     pub(crate) alive: A::Bool,
 }

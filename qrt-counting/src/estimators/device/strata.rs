@@ -13,7 +13,7 @@
 use super::{CountingProblem, Device, Usage};
 use crate::estimators::{EstimatorError, Noise};
 use crate::random::Stream;
-use crate::{Octaves, Stratum, binomial};
+use crate::{Angle, Octaves, Stratum, binomial};
 
 /// The distribution of colours behind a device, and the part of it that has been measured.
 #[derive(Clone, Debug)]
@@ -28,6 +28,27 @@ pub(super) struct Known {
     /// A stream beside the device's own, so that these draws do not change the device's.
     stream: Stream,
     counted: Vec<CountedStratum>,
+    /// The strata that have been measured on their own.
+    parts: Vec<(Stratum, CountingProblem, Angle)>,
+}
+
+impl Known {
+    /// The problem of a stratum, and its angle.
+    fn part(&mut self, stratum: Stratum) -> Result<(CountingProblem, Angle), EstimatorError> {
+        if let Some(&(_, problem, theta)) = self.parts.iter().find(|part| part.0 == stratum) {
+            return Ok((problem, theta));
+        }
+        let octaves = self.octaves.get(stratum.octaves());
+        let octaves = octaves.ok_or(EstimatorError::NotByStrata)?;
+        let sum = |which: usize| octaves.iter().map(|indices| indices[which]).sum::<u64>();
+        let problem = CountingProblem {
+            good: sum(0),
+            total: sum(0) + sum(1),
+        };
+        let theta = Angle::from_counts(problem.good, problem.total)?;
+        self.parts.push((stratum, problem, theta));
+        Ok((problem, theta))
+    }
 }
 
 /// A stratum that an estimator has counted on its own.
@@ -90,6 +111,7 @@ impl<'a> Device<'a> {
             lengths,
             stream: stream.beside(),
             counted: Vec::new(),
+            parts: Vec::new(),
         };
         let mut device = Self::new(problem, noise, stream)?;
         device.known = Some(Box::new(known));
@@ -119,15 +141,16 @@ impl<'a> Device<'a> {
         stratum: Stratum,
         run: impl FnOnce(&mut Device<'_>) -> T,
     ) -> Result<T, EstimatorError> {
-        let known = self.known.as_ref();
-        let octaves = known.and_then(|known| known.octaves.get(stratum.octaves()));
-        let octaves = octaves.ok_or(EstimatorError::NotByStrata)?;
-        let sum = |which: usize| octaves.iter().map(|indices| indices[which]).sum::<u64>();
-        let problem = CountingProblem {
-            good: sum(0),
-            total: sum(0) + sum(1),
+        let known = self.known.as_mut().ok_or(EstimatorError::NotByStrata)?;
+        let (problem, theta) = known.part(stratum)?;
+        let mut part = Device {
+            problem,
+            theta,
+            noise: self.noise,
+            stream: self.stream,
+            usage: Usage::default(),
+            known: None,
         };
-        let mut part = Device::new(problem, self.noise, self.stream)?;
         let value = run(&mut part);
         let used = part.usage;
         self.usage.add(&used);

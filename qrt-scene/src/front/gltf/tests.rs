@@ -180,14 +180,16 @@ fn materials_are_those_of_the_scene_language() {
     for (material, expected, left_out) in [
         (
             format!("\"pbrMetallicRoughness\": {{ {quarter}, \"metallicFactor\": 0 }}"),
-            Material::from(Lambertian { albedo: grey(0.25) }),
+            Material::from(Lambertian {
+                albedo: grey(0.25).into(),
+            }),
             "",
         ),
         (
             format!("\"pbrMetallicRoughness\": {{ {quarter}, \"roughnessFactor\": 0.5 }}"),
             Ggx {
                 alpha: 0.25,
-                reflectance: grey(0.25),
+                reflectance: grey(0.25).into(),
             }
             .into(),
             "",
@@ -195,7 +197,7 @@ fn materials_are_those_of_the_scene_language() {
         (
             format!("\"pbrMetallicRoughness\": {{ {quarter}, \"roughnessFactor\": 0 }}"),
             Mirror {
-                reflectance: grey(0.25),
+                reflectance: grey(0.25).into(),
             }
             .into(),
             "",
@@ -206,7 +208,7 @@ fn materials_are_those_of_the_scene_language() {
                 .to_owned(),
             Emitter {
                 radiance: [8.0, 4.0, 0.0],
-                albedo: grey(1.0),
+                albedo: grey(1.0).into(),
             }
             .into(),
             "",
@@ -224,7 +226,10 @@ fn materials_are_those_of_the_scene_language() {
             r#""alphaMode": "BLEND", "pbrMetallicRoughness":
                { "metallicFactor": 0.25, "baseColorFactor": [1, 1, 1, 0.75] }"#
                 .to_owned(),
-            Lambertian { albedo: grey(1.0) }.into(),
+            Lambertian {
+                albedo: grey(1.0).into(),
+            }
+            .into(),
             "alpha metallicFactor",
         ),
     ] {

@@ -19,12 +19,12 @@ const SMOOTH: f64 = 0.1;
 /// the width of the GGX distribution, as in Burley's model, which Blender and glTF use.
 pub(in crate::front) fn metal(colour: Rgb, roughness: f64) -> Material {
     if roughness < SMOOTH {
-        let reflectance = colour;
+        let reflectance = colour.into();
         return Mirror { reflectance }.into();
     }
     let ggx = Ggx {
         alpha: roughness * roughness,
-        reflectance: colour,
+        reflectance: colour.into(),
     };
     ggx.into()
 }

@@ -385,6 +385,7 @@ impl Definition {
             leave_out(transparency, opacity.is_some_and(|opacity| opacity < 1.0));
             leave_out("Pm", said.metallic.is_some_and(|metallic| metallic > 0.0));
             let albedo = said.diffuse.unwrap_or_default();
+            let albedo = albedo.into();
             return Ok(Emitter { radiance, albedo }.into());
         }
         if is_glass {
@@ -430,6 +431,7 @@ impl Definition {
         }
         leave_out("Ks", specular.is_some());
         let albedo = said.diffuse.ok_or_else(empty)?;
+        let albedo = albedo.into();
         Ok(Lambertian { albedo }.into())
     }
 }

@@ -118,11 +118,11 @@ const COLOURS: &str = "# made by hand\nnewmtl dark red\nKa 1 1 1\nKd 0.5 0.1 0\n
 fn faces_take_the_materials_of_their_libraries() {
     let mesh = read_with(TWO, &[("my colours.mtl", COLOURS)]).unwrap();
     let red = Material::from(Lambertian {
-        albedo: [0.5, 0.1, 0.0],
+        albedo: [0.5, 0.1, 0.0].into(),
     });
     let lamp = Material::from(Emitter {
         radiance: [17.0, 12.5, 4.0],
-        albedo: [0.0; 3],
+        albedo: [0.0; 3].into(),
     });
     let found = mesh
         .materials

@@ -69,6 +69,13 @@ fn list_schema(items: Data, least: usize, most: Option<usize>) -> Data {
 /// A colour: red, green and blue, or one number, which is grey.
 pub(crate) struct Colour(pub(crate) Number);
 
+impl Colour {
+    /// The schemas of a list and of a number.
+    pub(crate) fn shapes(&self) -> Vec<Data> {
+        vec![Array::<_, 3>(self.0).schema(), self.0.schema()]
+    }
+}
+
 impl Shape for Colour {
     type Value = [f64; 3];
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> [f64; 3] {
@@ -95,8 +102,7 @@ impl Shape for Colour {
         Array::<_, 3>(self.0).encode(value)
     }
     fn schema(&self) -> Data {
-        let shapes = vec![Array::<_, 3>(self.0).schema(), self.0.schema()];
-        Data::map([("anyOf", Data::List(shapes))])
+        Data::map([("anyOf", Data::List(self.shapes()))])
     }
 }
 

@@ -112,7 +112,14 @@ problems! {
         SphereInTable = SPHERE_IN_TABLE
             "a search over the numbers of faces looks faces up in tables, which hold polygons alone"
             help "search with `--visibility classical`, or draw the sphere as a mesh";
-        SmallSphere { fraction: u32, needed: u32 } = SMALL_SPHERE
+        SmallCell { fraction: u32, needed: u32 } = SMALL_PART
+            "beside the size of the scene these cells have too few of {fraction} fraction bits"
+            help { Some(if *needed <= 30 {
+                format!("set `precision.fraction: {needed}`, or make the cells larger")
+            } else {
+                "make the cells larger".to_owned()
+            }) };
+        SmallSphere { fraction: u32, needed: u32 } = SMALL_PART
             "beside the size of the scene this sphere has too few of {fraction} fraction bits"
             help { Some(if *needed <= 30 {
                 format!("set `precision.fraction: {needed}`, or draw what is large as a quad")

@@ -51,6 +51,8 @@ problems! {
             { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
             help { Some(match *kind {
                 "metal" => "Mitsuba's metals take Fresnel's formulas: use `ggx`, or `mirror` for smooth metal".to_owned(),
+                "checker" => "on faces that are parallel to two axes it is exported: draw a slanted face or a \
+                    sphere in one colour".to_owned(),
                 "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),
                 _ => "a map and a value of one's own are qrt's alone: use another material".to_owned(),
             }) };

@@ -43,6 +43,7 @@ fn vertex(outgoing: Direction) -> Vertex<Scalar> {
         cos_theta: arriving[2],
         front: true,
         surface: SURFACE,
+        tint: SURFACE,
         alive: true,
     }
 }

@@ -85,6 +85,7 @@ fn meant(
         leave_out("alpha", alpha < 1.0);
         leave_out("transmissionFactor", transmission > 0.0);
         let albedo = if is_metal { [0.0; 3] } else { base };
+        let albedo = albedo.into();
         return Ok(Emitter { radiance, albedo }.into());
     }
     if is_glass {
@@ -104,7 +105,8 @@ fn meant(
         return Ok(surface::metal(base, roughness));
     }
     leave_out("metallicFactor", metallic > 0.0);
-    Ok(Lambertian { albedo: base }.into())
+    let albedo = base.into();
+    Ok(Lambertian { albedo }.into())
 }
 
 fn reflectance(keyword: &str, colour: Rgb) -> Result<Rgb, MeshFile> {

@@ -39,7 +39,7 @@ fn a_comment_ends_with_its_line_although_it_ends_in_a_backslash() {
         .unwrap();
         let red = Material::from(Emitter {
             radiance: [2.0; 3],
-            albedo: [1.0, 0.0, 0.0],
+            albedo: [1.0, 0.0, 0.0].into(),
         });
         assert_eq!(mesh.materials[0].material, Ok(red));
     }

@@ -18,7 +18,10 @@ fn material(head: &str, statements: &str) -> (Material, String) {
 }
 
 fn matte(grey: f64) -> Material {
-    Lambertian { albedo: [grey; 3] }.into()
+    Lambertian {
+        albedo: [grey; 3].into(),
+    }
+    .into()
 }
 
 fn glass(ior: f64) -> Material {
@@ -27,12 +30,19 @@ fn glass(ior: f64) -> Material {
 
 fn mirror(grey: f64) -> Material {
     let reflectance = [grey; 3];
-    Mirror { reflectance }.into()
+    Mirror {
+        reflectance: reflectance.into(),
+    }
+    .into()
 }
 
 fn rough(alpha: f64, grey: f64) -> Material {
     let reflectance = [grey; 3];
-    Ggx { alpha, reflectance }.into()
+    Ggx {
+        alpha,
+        reflectance: reflectance.into(),
+    }
+    .into()
 }
 
 #[test]
@@ -91,7 +101,7 @@ fn materials_of_blender_are_what_they_were_there() {
             "Ns 250; Ka 1 1 1; Kd 0.8 0.8 0.8; Ks 0.5 0.5 0.5; Ke 5 5 5; Ni 1.45; d 1; illum 2",
             Emitter {
                 radiance: [5.0; 3],
-                albedo: [0.8; 3],
+                albedo: [0.8; 3].into(),
             }
             .into(),
             "",
