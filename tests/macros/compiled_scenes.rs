@@ -84,7 +84,9 @@ qrt! {
     pub(crate) scene Field<Fixed<2, 30>> {
         camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },
         film: 4 x 4,
-        material white: lambertian { albedo: rgb(0.7, 0.6, 0.5) },
+        material white: lambertian {
+            albedo: { checker: { of: (rgb(0.7, 0.6, 0.5), rgb(0.2, 0.3, 0.4)), scale: 0.5 } },
+        },
         material glass: dielectric { ior: 1.5 },
         material lamp: emitter { radiance: rgb(3, 2, 0) },
         quad floor: white { (-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2) },

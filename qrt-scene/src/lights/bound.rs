@@ -1,9 +1,11 @@
 //! Upper bounds of how strongly a lamp lights a surface, by interval arithmetic: branch and bound
 //! over pairs of a part of the surface and a part of the lamp.
 
+use crate::scene::text::Fingerprint;
 use glam::DVec3;
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashMap};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// Ratio of the bound to an attained value at which parts are no longer cut.
 const TIGHT: f64 = 1.05;
@@ -36,23 +38,61 @@ impl Reached {
 ///
 /// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
 pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3]) -> Reached {
-    let lamp: Vec<Triangle> = Triangle::fan(lamp).collect();
-    let faces: Vec<Triangle> = surface.flat_map(Triangle::fan).collect();
-    let pairs = || {
-        let of = |face: &Triangle| lamp.iter().map(|lamp| (*face, *lamp)).collect::<Vec<_>>();
-        faces.iter().flat_map(of)
-    };
+    let faces: Vec<&[DVec3]> = surface.collect();
     Reached {
-        form: supremum(pairs(), form, MOST_PAIRS),
-        nearness: supremum(pairs(), nearness, MOST_PAIRS),
+        form: known(&faces, lamp, Bound::Form, MOST_PAIRS),
+        nearness: known(&faces, lamp, Bound::Nearness, MOST_PAIRS),
     }
 }
 
 /// Returns the bound of `q / r^4` for one polygon, but looser: it examines at most `most_pairs`
 /// pairs of parts.
 pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
-    let of = |face: Triangle| Triangle::fan(lamp).map(move |lamp| (face, lamp));
-    supremum(Triangle::fan(face).flat_map(of), form, most_pairs)
+    known(&[face], lamp, Bound::Form, most_pairs)
+}
+
+/// A quantity that is bounded.
+#[derive(Clone, Copy)]
+enum Bound {
+    Form,
+    Nearness,
+}
+
+/// Bounds that have been computed. A scene's programs, one for each channel and class of pixels, ask
+/// for the same ones.
+static KNOWN: LazyLock<Mutex<HashMap<Fingerprint, f64>>> = LazyLock::new(Mutex::default);
+
+/// Maximum number of bounds that are kept.
+const MOST_KNOWN: usize = 1 << 16;
+
+/// Returns the bound over all pairs of a face and the lamp.
+fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f64 {
+    let mut print = Fingerprint::EMPTY.and(&[of as u8]);
+    print = print.and(&most_pairs.to_le_bytes());
+    for polygon in faces.iter().chain([&lamp]) {
+        print = print.and(&polygon.len().to_le_bytes());
+        for number in polygon.iter().flat_map(DVec3::to_array) {
+            print = print.and(&number.to_bits().to_le_bytes());
+        }
+    }
+    let all = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(&most) = all().get(&print) {
+        return most;
+    }
+    let lamp: Vec<Triangle> = Triangle::fan(lamp).collect();
+    let pairs = faces.iter().flat_map(|face| Triangle::fan(face));
+    let pairs = pairs.flat_map(|face| lamp.iter().map(move |lamp| [face, *lamp]));
+    let bound = match of {
+        Bound::Form => form,
+        Bound::Nearness => nearness,
+    };
+    let most = supremum(pairs, bound, most_pairs);
+    let mut all = all();
+    if all.len() >= MOST_KNOWN {
+        all.clear();
+    }
+    all.insert(print, most);
+    most
 }
 
 /// A triangle of a surface or a lamp.
@@ -144,15 +184,20 @@ fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {
     }
 }
 
+/// A pair of parts, which a store holds at `slot`.
 struct Pair {
     most: f64,
-    face: Triangle,
-    lamp: Triangle,
+    size: f64,
+    slot: u32,
 }
 
 impl Pair {
-    fn size(&self) -> f64 {
-        self.face.radius + self.lamp.radius
+    fn new(most: f64, [face, lamp]: &[Triangle; 2], slot: u32) -> Self {
+        Self {
+            most,
+            size: face.radius + lamp.radius,
+            slot,
+        }
     }
 }
 
@@ -171,25 +216,56 @@ impl Ord for Pair {
     fn cmp(&self, other: &Self) -> Ordering {
         // Of two without a bound, the larger is cut first.
         let by_bound = self.most.total_cmp(&other.most);
-        by_bound.then(self.size().total_cmp(&other.size()))
+        by_bound.then(self.size.total_cmp(&other.size))
+    }
+}
+
+/// Pairs of parts that are still to be looked at. The heap orders references to them: a pair is too
+/// large to be moved again and again.
+struct Pairs {
+    heap: BinaryHeap<Pair>,
+    parts: Vec<[Triangle; 2]>,
+    free: Vec<u32>,
+}
+
+impl Pairs {
+    fn push(&mut self, most: f64, parts: &[Triangle; 2]) {
+        let slot = if let Some(slot) = self.free.pop() {
+            self.parts[slot as usize] = *parts;
+            slot
+        } else {
+            self.parts.push(*parts);
+            (self.parts.len() - 1) as u32
+        };
+        self.heap.push(Pair::new(most, parts, slot));
+    }
+
+    fn pop(&mut self) -> Option<(Pair, [Triangle; 2])> {
+        let pair = self.heap.pop()?;
+        self.free.push(pair.slot);
+        let parts = self.parts[pair.slot as usize];
+        Some((pair, parts))
     }
 }
 
 /// Returns an upper bound over all pairs; `bound` gives that of one pair.
 fn supremum(
-    pairs: impl Iterator<Item = (Triangle, Triangle)>,
+    pairs: impl Iterator<Item = [Triangle; 2]>,
     bound: fn(&Triangle, &Triangle) -> f64,
     most_pairs: usize,
 ) -> f64 {
-    let mut heap: BinaryHeap<Pair> = pairs
-        .map(|(face, lamp)| Pair {
-            most: bound(&face, &lamp),
-            face,
-            lamp,
-        })
-        .filter(|pair| pair.most > 0.0)
-        .collect();
-    let whole = heap.iter().map(Pair::size).fold(0.0, f64::max);
+    let pairs = pairs.map(|pair| (bound(&pair[0], &pair[1]), pair));
+    let (bounds, parts): (Vec<f64>, Vec<[Triangle; 2]>) =
+        pairs.filter(|(most, _)| *most > 0.0).unzip();
+    let numbered = (0..).zip(bounds.iter().zip(&parts));
+    let mut open = Pairs {
+        heap: numbered
+            .map(|(slot, (&most, parts))| Pair::new(most, parts, slot))
+            .collect(),
+        parts,
+        free: Vec::new(),
+    };
+    let whole = open.heap.iter().map(|pair| pair.size).fold(0.0, f64::max);
     let point = |part: &Triangle| Triangle {
         radius: 0.0,
         corners: [part.centre; 3],
@@ -199,32 +275,30 @@ fn supremum(
     };
     let mut taken: f64 = 0.0;
     for _ in 0..most_pairs {
-        let Some(pair) = heap.pop() else {
+        let Some((pair, [face, lamp])) = open.pop() else {
             return 0.0;
         };
-        let middle = bound(&point(&pair.face), &point(&pair.lamp));
+        let middle = bound(&point(&face), &point(&lamp));
         if middle.is_finite() {
             taken = taken.max(middle);
         }
-        if pair.most.is_infinite() && pair.size() < TOUCHING * whole {
+        if pair.most.is_infinite() && pair.size < TOUCHING * whole {
             return pair.most;
         }
         if pair.most <= TIGHT * taken {
             return pair.most * (1.0 + 1e-9);
         }
-        let cut_face = pair.face.radius >= pair.lamp.radius;
-        let larger = if cut_face { &pair.face } else { &pair.lamp };
+        let cut_face = face.radius >= lamp.radius;
+        let larger = if cut_face { &face } else { &lamp };
         for part in larger.quarters() {
-            let (face, lamp) = if cut_face {
-                (part, pair.lamp)
-            } else {
-                (pair.face, part)
-            };
+            let [face, lamp] = if cut_face { [part, lamp] } else { [face, part] };
             let most = bound(&face, &lamp);
             if most > 0.0 {
-                heap.push(Pair { most, face, lamp });
+                open.push(most, &[face, lamp]);
             }
         }
     }
-    heap.peek().map_or(0.0, |pair| pair.most * (1.0 + 1e-9))
+    open.heap
+        .peek()
+        .map_or(0.0, |pair| pair.most * (1.0 + 1e-9))
 }
