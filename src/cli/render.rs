@@ -10,18 +10,22 @@ use super::watch::watch;
 use super::{interrupt, memory, path, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use qrt_counting::MAX_COMPARATOR_BITS;
 use qrt_counting::estimators::{Noise, NoiseError};
 use qrt_runtime::Prepared;
 use qrt_runtime::checkpoint::Checkpoint;
 use qrt_runtime::image::{Encoding, Metadata};
+use qrt_runtime::path_machines::Real;
 use qrt_runtime::render::{
-    Colour, DEFAULT_FAILURE, Model, PicturePart, Portion, RenderError, RenderOptions, Visibility,
+    Colour, DEFAULT_FAILURE, Model, PicturePart, Portion, RenderError, RenderOptions, Rendered,
+    Visibility,
 };
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
 use qrt_scene::Estimator;
 use qrt_scene::front::Loaded;
+use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -285,6 +289,9 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             bar.clear();
             let (rendered, checkpoint) =
                 rendered.map_err(|error| failure(error, &loaded, &prepared, &options))?;
+            if !args.quiet {
+                note_black(&rendered, scene, args.seed);
+            }
             let layers = if args.layers {
                 rendered.layers(scene)
             } else {
@@ -423,6 +430,56 @@ fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>
         options.estimator.unwrap_or(counting.estimator),
         counting.repetitions,
         Estimator::AdaptiveBayes,
+    ));
+}
+
+/// Tells why a picture is black if its paths carry light: no colour reaches the comparator's first
+/// threshold.
+fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
+    /// Pixels and paths of each that are looked at.
+    const PIXELS: usize = 64;
+    const PATHS: u64 = 1 << 10;
+    if rendered.image.pixels.iter().flatten().any(|&c| c != 0.0) {
+        return;
+    }
+    let Ok(machine) = Real::new(scene, seed) else {
+        return;
+    };
+    let [left, top, width, height] = rendered.crop;
+    let all = width as usize * height as usize;
+    let pixels: Vec<[u32; 2]> = (0..all)
+        .step_by(all.div_ceil(PIXELS).max(1))
+        .map(|n| [left + n as u32 % width, top + n as u32 / width])
+        .collect();
+    let paths = PATHS.min(machine.paths());
+    let mut sums = [0.0; 3];
+    machine.trace_range(&pixels, 0..paths, |block| {
+        for (sum, colours) in sums.iter_mut().zip(block.colours) {
+            *sum += colours.iter().sum::<f64>();
+        }
+    });
+    let comparator = scene.scene().comparator;
+    let of_channel = |(sum, scale): (f64, f64)| {
+        let mean = sum / (pixels.len() as f64 * paths as f64);
+        (mean, scale / (1_u64 << comparator.bits) as f64)
+    };
+    let channels = sums.into_iter().zip(machine.stage().bound());
+    let brightest = channels
+        .map(of_channel)
+        .max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)));
+    let Some((mean, step)) = brightest.filter(|(mean, _)| *mean > 0.0) else {
+        return;
+    };
+    // Eight thresholds below the mean.
+    let bits = f64::from(comparator.bits) + (step / mean).log2().ceil() + 3.0;
+    let advice = if bits <= f64::from(MAX_COMPARATOR_BITS) {
+        format!("take `--set comparator.bits={bits}`")
+    } else {
+        "take other materials or maps, whose bound is lower".to_owned()
+    };
+    terminal::note(&format!(
+        "the picture is black, but its paths carry light, {mean:.2e} on average: the comparator's \
+         thresholds are {step:.2e} apart; {advice}"
     ));
 }
 

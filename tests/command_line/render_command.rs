@@ -657,3 +657,42 @@ fn what_takes_long_is_told_beforehand() {
     let output = folder.qrt(&["render", "box.yaml"]);
     assert!(output.stderr.is_empty(), "{output:?}");
 }
+
+#[test]
+fn a_picture_below_the_first_threshold_says_why_it_is_black() {
+    // The weight of nearly smooth metal under the cosine map is bounded by 0.8 / 0.05^4.
+    let scene = "name: dim
+camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 1 } }
+film: { width: 4, height: 3 }
+sky: { radiance: 1 }
+materials: { satin: { ggx: { alpha: 0.05, reflectance: 0.8 } } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: satin }
+sampling: { path_bits: 12, depths: [{ bits: [4, 4] }, { bits: [8, 8], map: cosine-hemisphere }] }
+comparator: { bits: 4 }
+";
+    let folder = Folder::with("dim.yaml", scene);
+    let told = |more: &[&str]| {
+        let run = [
+            &["render", "dim.yaml", "--estimator", "exact", "-o", "d.exr"],
+            more,
+        ]
+        .concat();
+        let output = folder.qrt(&run);
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let note = "the picture is black, but its paths carry light";
+    let errors = told(&["--model", "fixed"]);
+    assert!(errors.contains(note), "{errors}");
+    // What it advises gives a picture.
+    let (_, advice) = errors.split_once("--set ").unwrap();
+    let (advice, _) = advice.split_once('`').unwrap();
+    let errors = told(&["--model", "fixed", "--set", advice]);
+    assert!(!errors.contains(note), "{errors}");
+    let (_, pixels, _) = read_exr(&folder.path("d.exr"));
+    assert!(pixels.iter().flatten().any(|&c| c > 0.0), "{advice}");
+    assert!(!told(&["--model", "real"]).contains(note));
+    // A scene without light is black by right.
+    assert!(!told(&["--model", "fixed", "--set", "sky.radiance=0"]).contains(note));
+}

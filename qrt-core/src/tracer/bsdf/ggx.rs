@@ -11,6 +11,7 @@
 //! Jacobian cancels all but the masking of the sampled direction: `W = reflectance G1(i)`. The
 //! reflectance of metal depends on the angle between `o` and `h`.
 
+use super::map::DepthMap;
 use super::mirror::schlick;
 use super::vertex::{Scattered, to_scene};
 use super::{Mapped, Sample, Square, Way, by_surface};
@@ -135,16 +136,23 @@ impl GgxLobe {
         schlick(cx, tint, cos)
     }
 
-    /// The greatest weight of `surface`. Under the depth's map it is `pi f` times the map's factor:
-    /// `D` is at most `1 / (pi alpha^2)`, and the masking's denominator at least `alpha^2`; both at
-    /// once at grazing angles.
-    pub(super) fn weight_bound(&self, surface: u32, reflectance: f64, factor: f64) -> f64 {
+    /// The greatest weight of `surface`. Under a depth's map it is
+    ///
+    /// ```text
+    /// pi f F = pi reflectance D F / ((cos_i + r_i) (cos_o + r_o)),   r = sqrt(cos^2 + a^2 sin^2) >= a
+    /// ```
+    ///
+    /// with the map's factor F, and D is at most `1 / (pi a^2)`. Under the cosine map F is 1. Under the
+    /// uniform map F is `2 cos_i`, and `cos_i / (cos_i + r_i)` is at most 1/2.
+    pub(super) fn weight_bound(&self, surface: u32, reflectance: f64, map: &DepthMap) -> f64 {
         let reflectance = if self.is_metal { 1.0 } else { reflectance };
         let [alpha] = self.roughness[surface as usize];
         if self.has_map {
             reflectance
+        } else if map.is_projected() {
+            reflectance / alpha.powi(4)
         } else {
-            reflectance * factor / alpha.powi(4)
+            reflectance / alpha.powi(3)
         }
     }
 

@@ -317,7 +317,9 @@ impl<const C: usize> ScatterStage<C> {
             // Schlick's formula goes from the tint to 1.
             Some(Lobe::Metal) => [1.0; C],
             Some(Lobe::Dielectric(lobe)) => [lobe.weight_bound(number); C],
-            Some(Lobe::Ggx(lobe)) => tint.map(|tint| lobe.weight_bound(number, tint, factor)),
+            Some(Lobe::Ggx(lobe)) => {
+                tint.map(|tint| lobe.weight_bound(number, tint, &self.square.map))
+            }
             Some(Lobe::Phong(lobe)) => lobe.weight_bound(factor),
             Some(Lobe::Custom(lobe)) => lobe.weight_bound,
         }

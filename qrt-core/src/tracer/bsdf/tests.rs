@@ -174,6 +174,39 @@ fn assert_all_that_scatter<const N: usize>(materials: [&str; N]) {
     }
 }
 
+/// The greatest weight of rough metal under a depth's map is near its bound, and never above it. It is
+/// that of the mirror direction of a viewer near the horizon.
+#[test]
+fn weights_of_ggx_reach_their_bounds_and_no_more() {
+    for (map, least) in [
+        ("cosine-hemisphere", 0.5),
+        ("uniform-hemisphere", 0.3),
+        ("auto", 0.9),
+    ] {
+        for alpha in [0.1, 0.3, 1.0] {
+            let material = format!("{{ ggx: {{ alpha: {alpha}, reflectance: 0.8 }} }}");
+            let specimen = Specimen::new(&material, map, 11);
+            let [bound, ..] = specimen.stage.scatters[0].weight_bound(0);
+            let mut most: f64 = 0.0;
+            for degrees in (0..80)
+                .map(f64::from)
+                .chain((800..900).step_by(4).map(|tenth| f64::from(tenth) / 10.0))
+            {
+                let viewer = at(degrees, 180.0);
+                for u in 0..1 << 11 {
+                    let (_, [weight, ..]) = specimen.scatter(viewer, [u, 0]);
+                    most = most.max(weight);
+                }
+            }
+            assert!(
+                most <= bound * (1.0 + 1e-9),
+                "{map}, {alpha}: {most} of {bound}"
+            );
+            assert!(most >= bound * least, "{map}, {alpha}: {most} of {bound}");
+        }
+    }
+}
+
 #[test]
 fn every_weight_is_the_value_times_cosine_times_jacobian() {
     let cases: [(&str, Textbook, &[&str]); 6] = [
