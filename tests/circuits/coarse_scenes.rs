@@ -520,7 +520,7 @@ sampling: { path_bits: 5, lights: auto, depths: [{ bits: [3, 3] }, { bits: [3, 3
 }
 
 #[test]
-#[ignore = "takes most of an hour on two cores"]
+#[ignore = "takes twenty minutes on two cores"]
 fn of_ten_thousand_scenes_everything_agrees() {
     let mut found = Found::default();
     // The sums are printed after each thousand.

@@ -23,7 +23,7 @@ mod made {
     use qrt_scene::{
         Camera, Circuit, Comparator, ComparatorAt, Counting, DepthSampling, Emitter, Estimator,
         Film, Geometry, Lambertian, Lights, Map, Material, Nearest, Perspective, Precision,
-        Sampling, Scene, Sequence, Uncompute, Window,
+        Reflectance::Uniform, Sampling, Scene, Sequence, Uncompute, Window,
     };
     include!(concat!(env!("OUT_DIR"), "/picture.rs"));
 }
