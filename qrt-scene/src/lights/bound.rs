@@ -1,10 +1,10 @@
 //! Upper bounds of how strongly a lamp lights a surface, by interval arithmetic: branch and bound
 //! over pairs of a part of the surface and a part of the lamp.
 
-use crate::scene::text::Fingerprint;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// Ratio of the bound to an attained value at which parts are no longer cut.
@@ -58,23 +58,25 @@ enum Bound {
     Nearness,
 }
 
-/// Bounds that have been computed. A scene's programs, one for each channel and class of pixels, ask
-/// for the same ones.
-static KNOWN: LazyLock<Mutex<HashMap<Fingerprint, f64>>> = LazyLock::new(Mutex::default);
+/// Bounds that have been computed, by 128 bits of a hash of what they are of. A scene's programs, one
+/// for each channel and class of pixels, ask for the same ones.
+static KNOWN: LazyLock<Mutex<HashMap<[u64; 2], f64>>> = LazyLock::new(Mutex::default);
 
 /// Maximum number of bounds that are kept.
 const MOST_KNOWN: usize = 1 << 16;
 
 /// Returns the bound over all pairs of a face and the lamp.
 fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f64 {
-    let mut print = Fingerprint::EMPTY.and(&[of as u8]);
-    print = print.and(&most_pairs.to_le_bytes());
-    for polygon in faces.iter().chain([&lamp]) {
-        print = print.and(&polygon.len().to_le_bytes());
-        for number in polygon.iter().flat_map(DVec3::to_array) {
-            print = print.and(&number.to_bits().to_le_bytes());
+    let print = [0_u8, 1].map(|half| {
+        let mut hasher = DefaultHasher::new();
+        (half, of as u8, most_pairs).hash(&mut hasher);
+        for polygon in faces.iter().chain([&lamp]) {
+            polygon.len().hash(&mut hasher);
+            let numbers = polygon.iter().flat_map(DVec3::to_array);
+            numbers.for_each(|number| number.to_bits().hash(&mut hasher));
         }
-    }
+        hasher.finish()
+    });
     let all = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(&most) = all().get(&print) {
         return most;
