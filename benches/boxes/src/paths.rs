@@ -135,7 +135,7 @@ impl Arith for Path<'_> {
         a <= b
     }
     fn odd(&mut self, a: f64) -> bool {
-        qrt_scene::Checker::is_odd(a)
+        qrt::scene::Checker::is_odd(a)
     }
     fn and(&mut self, a: bool, b: bool) -> bool {
         a && b
