@@ -10,8 +10,8 @@ use super::watch::watch;
 use super::{interrupt, memory, path, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use qrt_counting::MAX_COMPARATOR_BITS;
 use qrt_counting::estimators::{Noise, NoiseError};
+use qrt_counting::{Comparators, MAX_COMPARATOR_BITS};
 use qrt_runtime::Prepared;
 use qrt_runtime::checkpoint::Checkpoint;
 use qrt_runtime::image::{Encoding, Metadata};
@@ -452,18 +452,28 @@ fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
         .map(|n| [left + n as u32 % width, top + n as u32 / width])
         .collect();
     let paths = PATHS.min(machine.paths());
-    let mut sums = [0.0; 3];
+    let (mut sums, mut greatest) = ([0.0; 3], [0.0; 3]);
     machine.trace_range(&pixels, 0..paths, |block| {
-        for (sum, colours) in sums.iter_mut().zip(block.colours) {
-            *sum += colours.iter().sum::<f64>();
+        for (channel, colours) in block.colours.iter().enumerate() {
+            sums[channel] += colours.iter().sum::<f64>();
+            greatest[channel] = colours.iter().copied().fold(greatest[channel], f64::max);
         }
     });
     let comparator = scene.scene().comparator;
+    let bounds = machine.stage().bound();
+    let counts = |(greatest, bound): (f64, f64)| {
+        let comparators = Comparators::new(bound, comparator);
+        comparators.is_ok_and(|comparators| comparators.good(greatest) > 0)
+    };
+    if greatest.into_iter().zip(bounds).any(counts) {
+        // Some colour is above a threshold: too few queries have found none.
+        return;
+    }
     let of_channel = |(sum, scale): (f64, f64)| {
         let mean = sum / (pixels.len() as f64 * paths as f64);
         (mean, scale / (1_u64 << comparator.bits) as f64)
     };
-    let channels = sums.into_iter().zip(machine.stage().bound());
+    let channels = sums.into_iter().zip(bounds);
     let brightest = channels
         .map(of_channel)
         .max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)));

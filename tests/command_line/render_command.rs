@@ -693,6 +693,21 @@ comparator: { bits: 4 }
     let (_, pixels, _) = read_exr(&folder.path("d.exr"));
     assert!(pixels.iter().flatten().any(|&c| c > 0.0), "{advice}");
     assert!(!told(&["--model", "real"]).contains(note));
+    // Too few queries find no good index, though colours are above thresholds: this is no such picture.
+    let few = [
+        "--set",
+        "counting={ phase_bits: 1, repetitions: 1 }",
+        "--set",
+        "comparator.bits=24",
+    ];
+    let run = [
+        &["render", "dim.yaml", "-o", "d.exr", "--model", "fixed"],
+        &few[..],
+    ]
+    .concat();
+    let output = folder.qrt(&run);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(!String::from_utf8_lossy(&output.stderr).contains(note));
     // A scene without light is black by right.
     assert!(!told(&["--model", "fixed", "--set", "sky.radiance=0"]).contains(note));
 }
