@@ -75,6 +75,11 @@ pub struct NoCounterpart {
 }
 
 impl NoCounterpart {
+    fn new(surface: &Surface, kind: &'static str) -> Self {
+        let name = surface.name.clone();
+        Self { name, kind }
+    }
+
     /// The problem at the material's place in the scene.
     pub fn problem(&self) -> Problem {
         let path = Path::root().key("materials").key(self.name.as_str());
@@ -128,7 +133,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     for (index, (surface, faces)) in used.filter(|(_, (_, faces))| !faces.is_empty()) {
         // Mitsuba samples the points of a rectangle as evenly as its sampler's numbers are
         // distributed.
-        let checker = checker(surface);
+        let checker = surface.checker();
         let is_lamp =
             |face: &&&Polygon| surface.emits() && checker.is_none() && is_parallelogram(face);
         let (lamps, faces): (Vec<_>, Vec<_>) = faces.iter().partition(is_lamp);
@@ -158,10 +163,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
                     let cells: Option<Vec<[Cell; 2]>> =
                         faces.iter().map(|face| cells(checker, face)).collect();
                     let Some(cells) = cells else {
-                        return Err(NoCounterpart {
-                            name: surface.name.clone(),
-                            kind: CHECKER,
-                        });
+                        return Err(NoCounterpart::new(surface, CHECKER));
                     };
                     ply(&faces, |face, corner| {
                         Some(cells[face].map(|cell| cell.at(corner)))
@@ -178,11 +180,8 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
             Number(ball.radius)
         );
         let surface = &scene.surfaces()[ball.surface as usize];
-        if checker(surface).is_some() {
-            return Err(NoCounterpart {
-                name: surface.name.clone(),
-                kind: CHECKER,
-            });
+        if surface.checker().is_some() {
+            return Err(NoCounterpart::new(surface, CHECKER));
         }
         text.push_str(&(shape + &material(surface)?));
     }
@@ -312,16 +311,6 @@ fn sensor(scene: &ValidScene) -> String {
     )
 }
 
-/// The checker of a surface's colour.
-fn checker(surface: &Surface) -> Option<&Checker> {
-    match &surface.scatter {
-        Scatter::Lambertian(matte) => matte.albedo.checker(),
-        Scatter::Mirror(mirror) => mirror.reflectance.checker(),
-        Scatter::Ggx(ggx) => ggx.reflectance.checker(),
-        _ => None,
-    }
-}
-
 /// A texture coordinate: half of a corner's coordinate in cells, with a constant added.
 #[derive(Clone, Copy)]
 struct Cell {
@@ -407,10 +396,7 @@ fn material(surface: &Surface) -> Result<String, NoCounterpart> {
             reflected("specular_reflectance", reflectance)
         )
     };
-    let none = |kind| NoCounterpart {
-        name: surface.name.clone(),
-        kind,
-    };
+    let none = |kind| NoCounterpart::new(surface, kind);
     let two_sided = |bsdf: String| format!(r#"<bsdf type="twosided">{bsdf}</bsdf>"#);
     let bsdf = match &surface.scatter {
         Scatter::Black => two_sided(diffuse([0.0; 3].into())),

@@ -40,26 +40,26 @@ struct Lattice {
 /// A property of faces.
 #[derive(Clone, Debug, PartialEq)]
 enum Flags {
-    None,
-    All,
+    Never,
+    Always,
     /// By face: 1 for those that have it.
-    Some(Vec<u32>),
+    By(Vec<u32>),
 }
 
 impl Flags {
     /// The property of `number` faces that `pairs` lists; other faces may have it or not.
     fn new(number: usize, pairs: impl Iterator<Item = (usize, bool)> + Clone) -> Self {
         if pairs.clone().all(|(_, flag)| !flag) {
-            return Self::None;
+            return Self::Never;
         }
         if pairs.clone().all(|(_, flag)| flag) {
-            return Self::All;
+            return Self::Always;
         }
         let mut flags = vec![0; number];
         for (face, flag) in pairs {
             flags[face] = u32::from(flag);
         }
-        Self::Some(flags)
+        Self::By(flags)
     }
 }
 
@@ -190,9 +190,9 @@ enum Flag<A: Arith> {
 #[inline(always)]
 fn flag<A: Arith>(cx: &mut A, flags: &Flags, face: A::Index) -> Flag<A> {
     match flags {
-        Flags::None => Flag::Never,
-        Flags::All => Flag::Always,
-        Flags::Some(flags) => {
+        Flags::Never => Flag::Never,
+        Flags::Always => Flag::Always,
+        Flags::By(flags) => {
             let flag = cx.entry(flags, face);
             Flag::On(cx.is(flag, 1))
         }

@@ -1,7 +1,7 @@
 //! A scene prepared for the tracer.
 
 use super::ball_ray::Round;
-use super::bsdf::{self, Emitters, ScatterStage, rank};
+use super::bsdf::{Emitters, ScatterStage, rank};
 use super::camera::{self, CameraStage, LensStage};
 use super::checker::Checkers;
 use super::geometry::StageGeometry;
@@ -106,10 +106,7 @@ impl<const C: usize> Stage<C> {
         let mut geometry = StageGeometry::new(scene.polygons(), scene.balls(), emits, &starts);
         let written_surfaces = scene.surface_of_faces();
         let surface_of: Vec<u32> = written_surfaces.map(|s| place[s as usize]).collect();
-        let checked: Vec<_> = surfaces
-            .iter()
-            .map(|surface| bsdf::checker(surface))
-            .collect();
+        let checked: Vec<_> = surfaces.iter().map(|surface| surface.checker()).collect();
         let checkers = Checkers::new(&geometry, scene.polygons(), &surface_of, &checked);
         let emitters = Emitters::new(&surfaces, channels);
         let sky = written

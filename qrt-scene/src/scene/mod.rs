@@ -25,8 +25,8 @@ pub use builder::SceneBuilder;
 use glam::DVec3;
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
-pub use reflectance::Reflectance;
-use reflectance::{PAIR, REFLECTED, ReflectanceShape};
+pub use reflectance::{Checker, Pattern, Reflectance};
+use reflectance::{REFLECTED, ReflectanceShape};
 use shape::{
     Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Part, Text,
     number, part, point, whole, word,
@@ -223,26 +223,6 @@ record! {
     pub struct Mirror = "a mirror";
     /// The share of light that is reflected, in linear RGB: a colour or a pattern.
     pub reflectance: Reflectance = ReflectanceShape;
-}
-
-variant! {
-    /// Colours by the place on a surface.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub enum Pattern = "a pattern";
-    /// Two colours in turn, in cubic cells.
-    Checker(Checker) = "checker";
-}
-
-record! {
-    /// Two colours in turn, in cubic cells along the scene's axes. One cell has a corner at the
-    /// scene's origin, lies on the positive side of all axes, and has the first colour. A face that
-    /// lies between two layers of cells has the colours of the layer with the greater coordinates.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Checker = "a checker";
-    /// The two colours, in linear RGB.
-    pub of: [Rgb; 2] = PAIR;
-    /// The length of a cell's edges, in scene units.
-    pub scale: f64 = LENGTH;
 }
 
 record! {

@@ -1,8 +1,9 @@
 //! The reflectance of a surface: one colour, or a pattern of colours.
 
+use super::record::{record, variant};
 use super::shape::{Array, Colour, Part, Shape, number, part};
 use super::text::Data;
-use super::{Checker, Pattern, Rgb};
+use super::{LENGTH, Rgb};
 use crate::syntax::tree::{Node, Value};
 use crate::syntax::{Datum, Place, Problems};
 use glam::DVec3;
@@ -13,6 +14,26 @@ pub(super) const REFLECTED: Colour =
 
 /// The shape of the two colours of a [`Checker`].
 pub(super) const PAIR: Array<Colour, 2> = Array(REFLECTED);
+
+variant! {
+    /// Colours by the place on a surface.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Pattern = "a pattern";
+    /// Two colours in turn, in cubic cells.
+    Checker(Checker) = "checker";
+}
+
+record! {
+    /// Two colours in turn, in cubic cells along the scene's axes. One cell has a corner at the
+    /// scene's origin, lies on the positive side of all axes, and has the first colour. A face that
+    /// lies between two layers of cells has the colours of the layer with the greater coordinates.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Checker = "a checker";
+    /// The two colours, in linear RGB.
+    pub of: [Rgb; 2] = PAIR;
+    /// The length of a cell's edges, in scene units.
+    pub scale: f64 = LENGTH;
+}
 
 /// The fraction of light that a surface reflects, in linear RGB, each in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]

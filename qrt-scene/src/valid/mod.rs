@@ -25,7 +25,8 @@ use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{
-    Bsdf, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Reflectance, Rgb, Scene,
+    Bsdf, Checker, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Reflectance, Rgb,
+    Scene,
 };
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
@@ -68,6 +69,19 @@ impl Surface {
     /// True if the surface emits in any channel.
     pub fn emits(&self) -> bool {
         self.radiance.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// The checker of the surface's albedo or reflectance, if it has one.
+    pub fn checker(&self) -> Option<&Checker> {
+        match &self.scatter {
+            Scatter::Lambertian(lobe) => lobe.albedo.checker(),
+            Scatter::Mirror(lobe) => lobe.reflectance.checker(),
+            Scatter::Ggx(lobe) => lobe.reflectance.checker(),
+            Scatter::Metal(lobe) => lobe.reflectance.checker(),
+            Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
+                None
+            }
+        }
     }
 
     /// True if paths may continue beyond the surface. The map of a user-defined BSDF may lead

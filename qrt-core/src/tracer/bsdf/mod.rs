@@ -30,7 +30,7 @@ use ggx::GgxLobe;
 use map::{DepthMap, Mapped};
 use phong::PhongLobe;
 use qrt_scene::valid::{Scatter, Surface};
-use qrt_scene::{Checker, Map, Reflectance, Rgb};
+use qrt_scene::{Map, Reflectance, Rgb};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::sync::Arc;
@@ -134,17 +134,6 @@ fn tint(scatter: &Scatter, coloured: bool) -> Reflectance {
         Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
             [0.0; 3].into()
         }
-    }
-}
-
-/// The checker of a surface's colour, if it has one.
-pub(crate) fn checker(surface: &Surface) -> Option<&Checker> {
-    match &surface.scatter {
-        Scatter::Lambertian(lobe) => lobe.albedo.checker(),
-        Scatter::Mirror(lobe) => lobe.reflectance.checker(),
-        Scatter::Ggx(lobe) => lobe.reflectance.checker(),
-        Scatter::Metal(lobe) => lobe.reflectance.checker(),
-        Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => None,
     }
 }
 
