@@ -74,8 +74,13 @@ macro_rules! patterns {
                             $(let $write = part_of($write);)*
                             for vector in 0..N {
                                 let places = ($(&$write[vector],)*);
-                                // In some patterns, gates write to a row that ends unchanged.
-                                $(#[allow(unused_mut)] let mut $read = $read[vector].get();)*
+                                $(
+                                    #[allow(
+                                        unused_mut,
+                                        reason = "gates may write to a row that ends unchanged"
+                                    )]
+                                    let mut $read = $read[vector].get();
+                                )*
                                 $(let mut $write = $write[vector].get();)*
                                 $(apply!(simd, $gate $($q)+);)+
                                 store!(places, $($write)*);

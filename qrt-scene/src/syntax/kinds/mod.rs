@@ -66,7 +66,11 @@ macro_rules! problems {
 
         impl $concept {
             /// Returns the problem in words, for the author of a scene's text.
-            #[allow(unused_variables, clippy::useless_format)]
+            #[allow(
+                unused_variables,
+                clippy::useless_format,
+                reason = "a problem may have no fields, or a message that shows none"
+            )]
             pub fn description(&self) -> super::Description {
                 match self {
                     $( Self::$problem $({ $($argument),* })? => super::Description {
