@@ -15,6 +15,7 @@ mod circuits {
     mod every_width;
     mod export_command;
     mod fronts;
+    mod mean_phase;
     mod models_agree;
     mod nearest_hits;
     mod only_what_the_scene_requires;

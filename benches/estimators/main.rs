@@ -12,6 +12,7 @@
 //!   over pixels takes away;
 //! * `strata`: by 1 to 6 strata of the comparator and by `auto`, on pixels whose colours are spread as
 //!   light sampling spreads them, and on pixels whose paths are all or nothing, the savings of strata;
+//! * `mean`: the mean phase on pixels of six scenes, beside counting;
 //! * `rendering`: the estimators of quantum rendering, their coverage, convergence and time;
 //! * `noise`: the errors on noisy devices;
 //! * `counting`: the price of draws and estimates.
@@ -31,6 +32,7 @@ mod counting;
 mod coverage;
 mod errors;
 mod expected;
+mod mean;
 mod noise;
 mod problems;
 mod rendering;
@@ -47,16 +49,18 @@ fn main() -> ExitCode {
         ("errors", errors::run),
         ("bias", biases),
         ("strata", strata),
+        ("mean", mean::run),
         ("rendering", rendering::run),
         ("noise", noise::run),
         ("counting", counting::run),
     ])
 }
 
-/// Returns the estimators, without the one that knows the amplitude.
+/// Returns the estimators, without the one that knows the amplitude, and without those that need the
+/// levels of paths: the part `mean` measures these.
 fn estimators() -> impl Iterator<Item = Estimator> {
     let all = Estimator::ALL.iter().copied();
-    all.filter(|&estimator| estimator != Estimator::Exact)
+    all.filter(|&estimator| estimator != Estimator::Exact && !estimator.reads_levels())
 }
 
 fn biases(arguments: &Arguments, promises: &mut Promises) {

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 /// Number of styles of series. Further series repeat the styles from the first.
-pub const STYLES: usize = 14;
+pub const STYLES: usize = 16;
 
 /// Colours by name, on light and on dark pages.
-const PALETTE: [(&str, [&str; 2]); 20] = [
+const PALETTE: [(&str, [&str; 2]); 21] = [
     // Text and strokes; secondary text; grids; the background.
     ("ink", ["#1f2328", "#e6edf3"]),
     ("soft", ["#59636e", "#9da7b3"]),
@@ -33,6 +33,7 @@ const PALETTE: [(&str, [&str; 2]); 20] = [
     ("s4", ["#7a6200", "#d9b832"]),
     ("s5", ["#6a4fc4", "#ab96f5"]),
     ("s6", ["#2b7f9e", "#63c5e0"]),
+    ("s7", ["#b02a37", "#f5848f"]),
 ];
 
 /// Style rules of drawings. All are under one class, so that a page can contain drawings. Two
@@ -47,7 +48,7 @@ const RULES: &str = "\
 .drawing .grid{stroke:$grid;fill:none}.drawing .axis{color:$soft;stroke:currentColor;fill:none}
 .drawing .lead{stroke:$soft;fill:none;stroke-width:.7}
 .drawing .s0{color:$s0}.drawing .s1{color:$s1}.drawing .s2{color:$s2}.drawing .s3{color:$s3}
-.drawing .s4{color:$s4}.drawing .s5{color:$s5}.drawing .s6{color:$s6}
+.drawing .s4{color:$s4}.drawing .s5{color:$s5}.drawing .s6{color:$s6}.drawing .s7{color:$s7}
 .drawing .line{fill:none;stroke:currentColor;stroke-width:1.8}
 .drawing .thin{fill:none;stroke:currentColor;stroke-width:1}.drawing .dash{stroke-dasharray:6 4}
 .drawing .bar{fill:none;stroke:currentColor;stroke-width:1.2;opacity:.65}
@@ -116,7 +117,7 @@ fn named(rules: &str, page: usize) -> String {
 }
 
 /// Outlines of marks of radius 4 about the origin, one for each colour of series.
-const MARKS: [&str; 7] = [
+const MARKS: [&str; 8] = [
     "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z",
     "M-3.6 -3.6h7.2v7.2h-7.2z",
     "M0 -4.8l4.5 7.8h-9z",
@@ -124,6 +125,7 @@ const MARKS: [&str; 7] = [
     "M0 4.8l4.5 -7.8h-9z",
     "M-5 -1.5h3.5v-3.5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5z",
     "M-4.6 -1.2l4.6 -3.6l4.6 3.6l-1.8 5.4h-5.6z",
+    "M0 -5.2l1.6 3.6h3.4l-2.4 2.8l1 4l-3.6 -2l-3.6 2l1 -4l-2.4 -2.8h3.4z",
 ];
 
 /// Returns the class of the colour of series `number`.

@@ -14,6 +14,7 @@
 //! bit `o - 1` set and none above it. For these bits, the circuit of a stratum has an X or nothing
 //! where the circuit of the whole range has a Hadamard.
 
+use crate::Histogram;
 use std::ops::Range;
 
 /// A range of thresholds that begins and ends with octaves.
@@ -97,6 +98,12 @@ pub struct Octaves {
     sums: Vec<u64>,
 }
 
+/// The length in bits of a path's count.
+#[inline]
+pub(crate) fn length_of(count: u64) -> usize {
+    (u64::BITS - count.leading_zeros()) as usize
+}
+
 impl Octaves {
     /// Creates a summary of no paths, for a comparator of `bits` bits.
     pub fn new(bits: u32) -> Self {
@@ -117,7 +124,7 @@ impl Octaves {
     /// Adds a path whose colour exceeds `count` thresholds, at most `2^bits`.
     #[inline]
     pub fn add(&mut self, count: u64) {
-        let length = (u64::BITS - count.leading_zeros()) as usize;
+        let length = length_of(count);
         self.paths[length] += 1;
         self.sums[length] += count;
     }
@@ -173,6 +180,18 @@ impl Octaves {
                 good
             })
             .collect()
+    }
+}
+
+impl From<&Histogram> for Octaves {
+    fn from(histogram: &Histogram) -> Self {
+        let mut octaves = Self::new(histogram.bits());
+        for (level, paths) in histogram.levels() {
+            let length = length_of(level);
+            octaves.paths[length] += paths;
+            octaves.sums[length] += level * paths;
+        }
+        octaves
     }
 }
 

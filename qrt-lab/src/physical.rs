@@ -201,7 +201,9 @@ impl<'a> Run<'a> {
             | Estimator::Miqae
             | Estimator::Chebyshev
             | Estimator::RandomDepth
-            | Estimator::AdaptiveBayes => {}
+            | Estimator::AdaptiveBayes
+            | Estimator::PhaseMean
+            | Estimator::Auto => {}
         }
         let settings = Settings::from_counting(&counting)?;
         let queries = match planned {

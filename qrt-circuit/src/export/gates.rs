@@ -1,6 +1,6 @@
 //! The writer of gates, one a line.
 
-use super::{ExportError, ExportFormat, ExportRegister, PHASE_REGISTER};
+use super::{ExportError, ExportFormat, ExportRegister};
 use crate::quantum::{QuantumGate, Turns};
 use crate::{Qubit, grouped};
 use std::collections::BTreeMap;
@@ -182,11 +182,15 @@ impl<'a, W: Write> Writer<'a, W> {
         Ok(())
     }
 
-    /// Measures the phase register, bit 0 first.
-    pub(super) fn measure(&mut self, bits: usize) -> io::Result<()> {
-        for bit in 0..bits {
-            let [qubit, bit] = [PHASE_REGISTER, "outcome"].map(|name| format!("{name}[{bit}]"));
-            self.put(&self.format.measure(&qubit, &bit))?;
+    /// Measures qubits, the first into bit 0 of the outcome.
+    pub(super) fn measure(&mut self, qubits: &[Qubit]) -> io::Result<()> {
+        for (bit, qubit) in qubits.iter().enumerate() {
+            let [register, place] = self.places[*qubit as usize];
+            let name = &self.registers[register as usize].name;
+            let line = self
+                .format
+                .measure(&format!("{name}[{place}]"), &format!("outcome[{bit}]"));
+            self.put(&line)?;
         }
         Ok(())
     }

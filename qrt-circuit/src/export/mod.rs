@@ -65,7 +65,7 @@ pub use error::ExportError;
 pub use format::ExportFormat;
 pub use gates::ExportCounts;
 
-use crate::quantum::{CircuitPart, CountingCircuit, QuantumGate, Turns};
+use crate::quantum::{CircuitPart, CountingCircuit, MeanPhaseCircuit, QuantumGate, Turns};
 use crate::{Gate, GateCircuit, Program, Qubit, lower};
 use gates::Writer;
 use std::borrow::Cow;
@@ -95,19 +95,47 @@ pub struct ExportRegister {
 /// make circuits without a phase flip on more than three qubits.
 #[derive(Clone)]
 pub struct Export<'a> {
-    counting: &'a CountingCircuit<'a>,
-    part: CircuitPart,
+    circuit: Circuit<'a>,
     registers: Vec<ExportRegister>,
-    /// Number of measured bits: those of the phase register, if there is one.
-    outcome: usize,
+    /// The measured qubits: those of the phase register, if there is one.
+    measured: Vec<Qubit>,
     cancel: Option<&'a AtomicBool>,
     progress: Option<&'a dyn Fn(u64)>,
+}
+
+/// The circuit that is exported.
+#[derive(Clone, Copy, Debug)]
+enum Circuit<'a> {
+    Part(&'a CountingCircuit<'a>, CircuitPart),
+    MeanPhase(&'a MeanPhaseCircuit<'a>),
+}
+
+impl Circuit<'_> {
+    fn qubits(self) -> u32 {
+        match self {
+            Self::Part(counting, part) => counting.qubits_of(part),
+            Self::MeanPhase(circuit) => circuit.qubits(),
+        }
+    }
+
+    fn gates(self) -> u64 {
+        match self {
+            Self::Part(counting, part) => counting.gates(part),
+            Self::MeanPhase(circuit) => circuit.gates(),
+        }
+    }
+
+    fn apply<E>(self, sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>) -> Result<(), E> {
+        match self {
+            Self::Part(counting, part) => counting.part(part, sink),
+            Self::MeanPhase(circuit) => circuit.apply(sink),
+        }
+    }
 }
 
 impl std::fmt::Debug for Export<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Export")
-            .field("part", &self.part)
             .field("registers", &self.registers)
             .finish_non_exhaustive()
     }
@@ -128,47 +156,71 @@ impl<'a> Export<'a> {
         parts: &[(&'static str, u32)],
     ) -> Result<Self, ExportError> {
         let index = counting.iterate().oracle().index();
-        let mut registers = Vec::new();
-        let mut rest = index;
-        for &(name, bits) in parts {
-            let split = rest.split_at_checked(bits as usize);
-            let (part, others) = split.ok_or(ExportError::IndexBits {
-                parts: parts.iter().map(|(_, bits)| bits).sum(),
-                index: index.len() as u32,
-            })?;
-            registers.push((name, part.to_vec()));
-            rest = others;
-        }
-        registers.push(("index", rest.to_vec()));
+        let mut registers = index_registers(index, parts)?;
         // The phase register's qubits and the window's bond follow the iterate's qubits.
         let iterate = counting.iterate().qubits().min(counting.qubits_of(part));
         let work = (0..iterate)
             .filter(|qubit| !index.contains(qubit))
             .collect();
         registers.push(("work", work));
-        let mut outcome = 0;
+        let mut measured = Vec::new();
         if part == CircuitPart::Counting {
             let phase = counting.phase_register();
-            outcome = phase.len();
+            measured = phase.to_vec();
             registers.push((PHASE_REGISTER, phase.to_vec()));
             let bond = phase.last().map_or(iterate, |last| last + 1);
             registers.push(("bond", (bond..counting.qubits()).collect()));
         }
-        Ok(Self {
-            counting,
-            part,
-            registers: registers
-                .into_iter()
-                .filter(|(_, qubits)| !qubits.is_empty())
-                .map(|(name, qubits)| ExportRegister {
-                    name: name.into(),
-                    qubits,
-                })
-                .collect(),
-            outcome,
+        Ok(Self::with_registers(
+            Circuit::Part(counting, part),
+            registers,
+            measured,
+        ))
+    }
+
+    /// Prepares a mean-phase circuit for writing.
+    ///
+    /// `parts` names parts of the path index, as in [`Export::new`]. The register `sign` is the sign
+    /// qubit, and `work` is zero before and after. Bit 0 of `outcome` is the sign qubit's, the others
+    /// are those of the path index.
+    ///
+    /// # Errors
+    /// As [`Export::new`].
+    pub fn mean_phase(
+        circuit: &'a MeanPhaseCircuit<'a>,
+        parts: &[(&'static str, u32)],
+    ) -> Result<Self, ExportError> {
+        let paths = circuit.oracle().index();
+        let mut registers = index_registers(paths, parts)?;
+        registers.push(("work", circuit.ancillas()));
+        registers.push(("sign", vec![circuit.sign()]));
+        let measured = [&[circuit.sign()], paths].concat();
+        Ok(Self::with_registers(
+            Circuit::MeanPhase(circuit),
+            registers,
+            measured,
+        ))
+    }
+
+    fn with_registers(
+        circuit: Circuit<'a>,
+        registers: Vec<(&'static str, Vec<Qubit>)>,
+        measured: Vec<Qubit>,
+    ) -> Self {
+        let used = registers
+            .into_iter()
+            .filter(|(_, qubits)| !qubits.is_empty());
+        let registers = used.map(|(name, qubits)| ExportRegister {
+            name: name.into(),
+            qubits,
+        });
+        Self {
+            circuit,
+            registers: registers.collect(),
+            measured,
             cancel: None,
             progress: None,
-        })
+        }
     }
 
     /// Sets a flag that ends the writing. The export checks it every few ten thousand gates.
@@ -191,12 +243,12 @@ impl<'a> Export<'a> {
 
     /// Number of qubits of all registers together.
     pub fn qubits(&self) -> u32 {
-        self.counting.qubits_of(self.part)
+        self.circuit.qubits()
     }
 
     /// Number of gates of the circuit. The text has a few more, since some are written as several.
     pub fn gates(&self) -> u64 {
-        self.counting.gates(self.part)
+        self.circuit.gates()
     }
 
     /// Writes the circuit, with `comments` under its header, a line each.
@@ -215,9 +267,9 @@ impl<'a> Export<'a> {
     ) -> Result<ExportCounts, ExportError> {
         self.check_cancelled()?;
         let mut out = Writer::new(format, &self.registers, self.qubits(), out);
-        out.header(comments, self.outcome)?;
+        out.header(comments, self.measured.len())?;
         let (mut sent, mut told) = (0, 0);
-        self.counting.part(self.part, &mut |gate| {
+        self.circuit.apply(&mut |gate| {
             out.gate(gate)?;
             sent += 1;
             if sent % STRIDE == 0 {
@@ -229,7 +281,7 @@ impl<'a> Export<'a> {
             }
             Ok::<(), ExportError>(())
         })?;
-        out.measure(self.outcome)?;
+        out.measure(&self.measured)?;
         Ok(out.end()?)
     }
 
@@ -239,6 +291,26 @@ impl<'a> Export<'a> {
             _ => Ok(()),
         }
     }
+}
+
+/// The registers of an index whose parts have names; the rest is called `index`.
+fn index_registers(
+    index: &[Qubit],
+    parts: &[(&'static str, u32)],
+) -> Result<Vec<(&'static str, Vec<Qubit>)>, ExportError> {
+    let mut registers = Vec::new();
+    let mut rest = index;
+    for &(name, bits) in parts {
+        let split = rest.split_at_checked(bits as usize);
+        let (part, others) = split.ok_or(ExportError::IndexBits {
+            parts: parts.iter().map(|(_, bits)| bits).sum(),
+            index: index.len() as u32,
+        })?;
+        registers.push((name, part.to_vec()));
+        rest = others;
+    }
+    registers.push(("index", rest.to_vec()));
+    Ok(registers)
 }
 
 impl Program {

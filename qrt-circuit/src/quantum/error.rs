@@ -1,6 +1,6 @@
 //! Errors of the counting circuit.
 
-use super::MAX_PHASE_BITS;
+use super::{LevelPhases, MAX_PHASE_BITS};
 use crate::Qubit;
 use std::fmt;
 
@@ -32,6 +32,17 @@ pub enum QuantumError {
     NoChannel(usize),
     /// The phase register's size is not in `1..=40` qubits.
     PhaseBitsOutOfRange(u32),
+    /// The slope of levels' phases is not positive and finite, or their reference not in [0, 1].
+    Slope,
+    /// An oracle of a mean-phase circuit flips another number of signs than a phase has bits.
+    PhaseSigns {
+        /// Number of phase flips of a call of the oracle.
+        signs: u64,
+        /// Number of bits of a phase.
+        bits: u32,
+    },
+    /// Levels or their phases have too few or too many bits.
+    LevelBits,
 }
 
 impl fmt::Display for QuantumError {
@@ -60,6 +71,18 @@ impl fmt::Display for QuantumError {
             Self::PhaseBitsOutOfRange(bits) => write!(
                 f,
                 "a phase register of {bits} bits; it has 1 to {MAX_PHASE_BITS}"
+            ),
+            Self::PhaseSigns { signs, bits } => write!(
+                f,
+                "an oracle with {signs} phase flips; phases have {bits} bits, each of which needs one"
+            ),
+            Self::Slope => f.write_str(
+                "phases of levels need a positive, finite slope and a reference from 0 to 1",
+            ),
+            Self::LevelBits => write!(
+                f,
+                "phases of levels have 2 to 51 bits, and levels at most {}",
+                LevelPhases::MOST_LEVEL_BITS
             ),
         }
     }

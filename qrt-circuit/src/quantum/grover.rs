@@ -71,11 +71,33 @@ impl<'a> GroverIterate<'a> {
         control: Option<Qubit>,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let ids = self.oracle.superposed();
         self.oracle.apply(control, sink)?;
+        self.diffuse(control, sink)
+    }
+
+    /// Emits `H O_0 H`: the reflection `2 psi psi^T - 1` of the uniform state psi, without the oracle.
+    fn diffuse<E>(
+        &self,
+        control: Option<Qubit>,
+        sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let ids = self.oracle.superposed();
         ids.iter().try_for_each(|id| sink(H(*id)))?;
         self.reflect(control, sink)?;
         ids.iter().try_for_each(|id| sink(H(*id)))
+    }
+
+    /// Emits the reflection `2 psi psi^T - 1` of the uniform state psi alone.
+    pub(super) fn reflect_mean<E>(
+        &self,
+        sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.diffuse(None, sink)
+    }
+
+    /// Number of gates of the reflection alone.
+    pub(super) fn reflection_gates(&self) -> u64 {
+        self.gates(false) - self.oracle.gates()
     }
 
     /// Emits O_0: Xs around the phase flip of `|1...1>`, and a global phase of -1.

@@ -7,6 +7,7 @@
 //! * [`GroverIterate`]: `G = H O_0 H O_f`, alone or under a control;
 //! * [`CountingCircuit`]: Hadamards on the qubits in superposition, the phase register's window,
 //!   controlled powers of G and the inverse Fourier transform;
+//! * [`MeanPhaseCircuit`]: the circuit whose phase is a pixel's mean, by [`LevelPhases`];
 //! * [`LogicalCounts`]: the input that estimators of physical resources take from circuits.
 //!
 //! Circuits are emitted gate by gate and never held: the controlled powers of G repeat the oracle
@@ -41,7 +42,9 @@ mod error;
 mod fourier;
 mod gate;
 mod grover;
+mod level_phases;
 mod logical;
+mod mean_phase;
 mod oracle;
 #[cfg(test)]
 mod tests;
@@ -52,7 +55,9 @@ pub use counting::{CircuitPart, CountingCircuit};
 pub use error::QuantumError;
 pub use gate::{QuantumGate, Turns};
 pub use grover::GroverIterate;
+pub use level_phases::LevelPhases;
 pub use logical::LogicalCounts;
+pub use mean_phase::MeanPhaseCircuit;
 pub use oracle::{Flip, PhaseOracle};
 pub use window::Window;
 

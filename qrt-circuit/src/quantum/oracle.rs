@@ -49,6 +49,7 @@ enum Steps {
         program: Program,
         words: Vec<u64>,
         gates: u64,
+        signs: u64,
     },
 }
 
@@ -126,12 +127,13 @@ impl PhaseOracle {
             qubits: lower::most_qubits(&program),
         };
         oracle.index.clone_from(&oracle.superposed);
-        let mut gates = 0;
+        let (mut gates, mut signs) = (0, 0);
         lower::try_each_instruction(&program, |next, _| {
             for gate in next {
                 if let Some(gate) = with_parameters(*gate, words)? {
                     oracle.check_gate(gate)?;
                     gates += 1;
+                    signs += u64::from(matches!(gate, Gate::Z(_)));
                 }
             }
             Ok(())
@@ -140,6 +142,7 @@ impl PhaseOracle {
             program,
             words: words.to_vec(),
             gates,
+            signs,
         };
         oracle.checked()
     }
@@ -262,6 +265,17 @@ impl PhaseOracle {
         }
     }
 
+    /// Number of phase flips of one call.
+    pub fn signs(&self) -> u64 {
+        match &self.steps {
+            Steps::Held { flip, .. } => {
+                let signs = flip.iter().filter(|step| matches!(step, Flip::Sign(_)));
+                signs.count() as u64
+            }
+            Steps::Lowered { signs, .. } => *signs,
+        }
+    }
+
     /// Emits the oracle's gates. With a `control`, only the phase flips are controlled: without a
     /// flip, uncompute cancels compute.
     ///
@@ -271,6 +285,19 @@ impl PhaseOracle {
         &self,
         control: Option<Qubit>,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.apply_signs(&mut |qubits, sink| sign(control, qubits, sink), sink)
+    }
+
+    /// Emits the oracle's gates, and for each phase flip what `sign` emits. `sign` receives the qubits
+    /// that must all be 1, and the sink.
+    ///
+    /// # Errors
+    /// An error of `sink`.
+    pub fn apply_signs<E, S: FnMut(QuantumGate<'_>) -> Result<(), E>>(
+        &self,
+        sign: &mut impl FnMut(&[Qubit], &mut S) -> Result<(), E>,
+        sink: &mut S,
     ) -> Result<(), E> {
         match &self.steps {
             Steps::Held {
@@ -284,7 +311,7 @@ impl PhaseOracle {
                 for step in flip {
                     match step {
                         Flip::Gate(gate) => reversible(*gate, sink)?,
-                        Flip::Sign(qubits) => sign(control, qubits, sink)?,
+                        Flip::Sign(qubits) => sign(qubits, sink)?,
                     }
                 }
                 uncompute
@@ -296,7 +323,7 @@ impl PhaseOracle {
                     for gate in next {
                         // `lowered` has checked that there is a word for each.
                         match with_parameters(*gate, words) {
-                            Ok(Some(Gate::Z(qubit))) => sign(control, &[qubit], sink)?,
+                            Ok(Some(Gate::Z(qubit))) => sign(&[qubit], sink)?,
                             Ok(Some(gate)) => reversible(gate, sink)?,
                             Ok(None) | Err(_) => {}
                         }

@@ -115,6 +115,9 @@ pub enum StageName {
     Flip,
     /// The path's values that a predicate reads, and the predicate.
     Predicate,
+    /// The phase of the level, in place of the comparison: see
+    /// [`Oracle::level_phases`](crate::oracle::Oracle::level_phases).
+    LevelPhase,
 }
 
 impl StageName {
@@ -143,6 +146,7 @@ impl StageName {
             Self::Compare => "compare",
             Self::Flip => "flip",
             Self::Predicate => "predicate",
+            Self::LevelPhase => "level phase",
         }
     }
 }
@@ -171,7 +175,7 @@ pub struct Label {
 
 impl Label {
     /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
-    const PLAIN: [StageName; 14] = [
+    const PLAIN: [StageName; 15] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -186,6 +190,7 @@ impl Label {
         StageName::Shadow,
         StageName::Predicate,
         StageName::Sky,
+        StageName::LevelPhase,
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.

@@ -6,9 +6,11 @@
 //! them. `theta` is known to 104 bits: a shot after 2^40 iterations has the right probability to
 //! better than 1e-15.
 
+mod mean_phase;
 mod shifted;
 mod strata;
 
+pub use mean_phase::MeanPhaseShot;
 pub use strata::CountedStratum;
 
 use super::{Estimate, EstimatorError, MAX_ITERATIONS, Noise, id_bits};

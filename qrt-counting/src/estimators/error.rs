@@ -1,7 +1,11 @@
 //! Errors of estimators: invalid settings and problems.
 
 use crate::CountingError;
+use qrt_circuit::quantum::LevelPhases;
 use qrt_scene::Estimator;
+
+/// The most bits of a comparator whose levels `phase-mean` looks up.
+const MOST_LEVEL_BITS: u32 = LevelPhases::MOST_LEVEL_BITS;
 
 /// The largest number of Grover iterations between preparation and measurement.
 pub const MAX_ITERATIONS: u64 = 1 << 44;
@@ -49,4 +53,21 @@ pub enum EstimatorError {
     /// comparator, or does not have this stratum.
     #[error("this device cannot count strata of its comparator one by one")]
     NotByStrata,
+    /// Levels of paths, requested from a device that knows only the number of good indices.
+    #[error("this device does not know the levels of its paths")]
+    NoLevels,
+    /// A comparator with more bits than a table of phases has address bits.
+    #[error(
+        "a comparator of {0} bits; `phase-mean` looks the phase of a path's level up, and takes at most \
+         {MOST_LEVEL_BITS}"
+    )]
+    LevelBits(u32),
+    /// The slope or the reference of a mean phase is out of range.
+    #[error("a mean phase with slope {slope} and reference {reference}")]
+    MeanPhase {
+        /// The slope, which must be positive and finite.
+        slope: f64,
+        /// The reference, which must be in [0, 1].
+        reference: f64,
+    },
 }

@@ -39,8 +39,8 @@ mod turns;
 mod windowed;
 
 pub use abrams_williams::AbramsWilliams;
-pub use bayes::{AdaptiveBayes, RandomDepth};
-pub use device::{CountedStratum, CountingProblem, Device, Usage};
+pub use bayes::{AdaptiveBayes, PhaseMean, RandomDepth};
+pub use device::{CountedStratum, CountingProblem, Device, MeanPhaseShot, Usage};
 pub use error::{EstimatorError, MAX_ITERATIONS};
 pub use exact::Exact;
 pub use iterative::Iterative;
@@ -137,6 +137,8 @@ pub fn estimator(
         Estimator::Paper | Estimator::Sine => Box::new(WindowedCounting::new(name, settings)?),
         Estimator::PosteriorMean => Box::new(PosteriorMean::new(settings)?),
         Estimator::AdaptiveBayes => Box::new(AdaptiveBayes::new(settings)?),
+        Estimator::PhaseMean => Box::new(PhaseMean::new(settings)?),
+        Estimator::Auto => Box::new(PhaseMean::auto(settings)?),
         Estimator::RandomDepth => Box::new(RandomDepth::new(settings)?),
         Estimator::Mlae => Box::new(Mlae::new(settings)),
         Estimator::Iqae => Box::new(Iterative::iqae(settings)),

@@ -246,8 +246,8 @@ impl Picture {
         };
         let tallies = &self.tallies[range.clone()];
         let drawn = if counting.may_count_strata() {
-            let octaves: Vec<_> = tallies.iter().map(|t| t.octaves.clone()).collect();
-            draws.draw(pixels, &Countable::Octaves(&octaves))?
+            let levels: Vec<_> = tallies.iter().map(|t| t.levels.clone()).collect();
+            draws.draw(pixels, &Countable::Levels(&levels))?
         } else {
             let good: Vec<[u64; 3]> = tallies.iter().map(|t| t.good[0]).collect();
             draws.draw(pixels, &Countable::Whole(&good))?

@@ -6,7 +6,7 @@ use super::setting::Setting;
 use super::table::Row;
 use qrt_core::oracle::{CallCost, Oracles};
 use qrt_counting::estimators::Noise;
-use qrt_counting::{Comparators, Octaves};
+use qrt_counting::{Comparators, LevelCounts};
 use qrt_runtime::memory::{CircuitSize, CircuitWork, Memory};
 use qrt_runtime::models::{MachineOptions, Model, path_machines};
 use qrt_runtime::path_machines::Real;
@@ -53,8 +53,8 @@ struct Traced {
     means: Means,
     /// By pixel and channel: S.
     good: Vec<[u64; 3]>,
-    /// By pixel and channel: S by octave of the comparator.
-    octaves: Vec<[Octaves; 3]>,
+    /// By pixel and channel: the levels of paths.
+    levels: Vec<[LevelCounts; 3]>,
     /// The wall time, in seconds.
     seconds: f64,
 }
@@ -174,7 +174,7 @@ impl<'a> Bench<'a> {
         let traced = Traced {
             means: means(&found, paths),
             good: good(&found),
-            octaves: octaves(found),
+            levels: levels(found),
             seconds: start.elapsed().as_secs_f64(),
         };
         self.real.push((key, traced.clone()));
@@ -264,7 +264,7 @@ impl<'a> Bench<'a> {
         let traced = Traced {
             means: Means::new(),
             good: good(&found),
-            octaves: octaves(found),
+            levels: levels(found),
             seconds: start.elapsed().as_secs_f64(),
         };
         self.counted.push((key, traced.clone()));
@@ -291,7 +291,7 @@ impl<'a> Bench<'a> {
             total,
         };
         let countable = if by_strata {
-            Countable::Octaves(&traced.octaves)
+            Countable::Levels(&traced.levels)
         } else {
             Countable::Whole(&traced.good)
         };
@@ -339,8 +339,8 @@ fn means(tallies: &[Tally], paths: u64) -> Means {
     tallies.iter().map(mean).collect()
 }
 
-fn octaves(tallies: Vec<Tally>) -> Vec<[Octaves; 3]> {
-    tallies.into_iter().map(|tally| tally.octaves).collect()
+fn levels(tallies: Vec<Tally>) -> Vec<[LevelCounts; 3]> {
+    tallies.into_iter().map(|tally| tally.levels).collect()
 }
 
 fn good(tallies: &[Tally]) -> Vec<[u64; 3]> {

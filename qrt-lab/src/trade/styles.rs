@@ -26,12 +26,12 @@ pub fn style(name: &str) -> Option<usize> {
         "product-lattice" | "product lattice" | "comparators, E_C" => 3,
         "width, E_W" => 4,
         "the front" | "depth, E_D" => 5,
-        "all settings" => 13,
+        "all settings" => 14,
         _ => return None,
     })
 }
 
-/// An estimator's style; `None` for `exact`, which measures nothing. Styles 7 to 13 are 0 to 6 with
+/// An estimator's style; `None` for `exact`, which measures nothing. Styles 8 to 15 are 0 to 7 with
 /// hollow marks. No estimator has the style of the net, and no two have the same.
 fn style_of(estimator: Estimator) -> Option<usize> {
     Some(match estimator {
@@ -42,13 +42,15 @@ fn style_of(estimator: Estimator) -> Option<usize> {
         Estimator::Sine => 4,
         Estimator::Mlae => 5,
         Estimator::Iqae => 6,
-        Estimator::RandomDepth => 7,
-        Estimator::Qcoin => 8,
-        Estimator::PosteriorMean => 9,
-        Estimator::AbramsWilliams => 10,
-        Estimator::Chebyshev => 11,
-        Estimator::Qss => 12,
-        Estimator::Miqae => 13,
+        Estimator::PhaseMean => 7,
+        Estimator::RandomDepth => 8,
+        Estimator::Qcoin => 9,
+        Estimator::PosteriorMean => 10,
+        Estimator::AbramsWilliams => 11,
+        Estimator::Chebyshev => 12,
+        Estimator::Qss => 13,
+        Estimator::Miqae => 14,
+        Estimator::Auto => 15,
     })
 }
 

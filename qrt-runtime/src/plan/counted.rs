@@ -3,7 +3,7 @@
 use super::PlanError;
 use super::pilot::{COMPARED, Pilot, Runs, SHIFTS};
 use crate::sample::{Countable, Draws, PixelEstimates};
-use qrt_counting::Octaves;
+use qrt_counting::LevelCounts;
 use qrt_scene::{Counting, Estimator};
 use std::sync::PoisonError;
 
@@ -35,13 +35,13 @@ impl Pilot<'_> {
                 bound => ((value[c] / bound * total as f64).round() as u64).min(total),
             })
         };
-        // The octaves are known only for these 2^COMPARED paths. Their mean differs a little from
+        // The levels are known only for these 2^COMPARED paths. Their mean differs a little from
         // the best known value, but the errors of estimating the two are alike.
-        let good: Vec<[u64; 3]> = if self.octaves.is_empty() {
+        let good: Vec<[u64; 3]> = if self.levels.is_empty() {
             self.values.iter().zip(&self.bounds).map(good_of).collect()
         } else {
-            let good = |octaves: &[Octaves; 3]| octaves.each_ref().map(|o| o.good().iter().sum());
-            self.octaves.iter().map(good).collect()
+            let good = |levels: &[LevelCounts; 3]| levels.each_ref().map(LevelCounts::good);
+            self.levels.iter().map(good).collect()
         };
         let draws = Draws {
             counting,
@@ -51,10 +51,10 @@ impl Pilot<'_> {
             count: self.draws,
             total,
         };
-        let countable = if self.octaves.is_empty() {
+        let countable = if self.levels.is_empty() {
             Countable::Whole(&good)
         } else {
-            Countable::Octaves(&self.octaves)
+            Countable::Levels(&self.levels)
         };
         let found = draws.draw(&self.pixels, &countable)?;
         let by_draw = |draw: usize| {

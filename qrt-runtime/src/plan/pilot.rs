@@ -5,10 +5,11 @@ use crate::models::{MachineOptions, Machines, Model, path_machines};
 use crate::path_machines::{PathMachine, Real};
 use crate::sample::{Means, Tally, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
+use qrt_circuit::quantum::LevelPhases;
 use qrt_core::oracle::{CallCost, Oracles};
 use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
-use qrt_counting::{Comparators, CountingError, Octaves};
+use qrt_counting::{Comparators, CountingError, LevelCounts};
 use qrt_scene::sampling::MAX_PATH_BITS;
 use qrt_scene::valid::{Parameters, ValidScene};
 use qrt_scene::{Accuracy, Comparator, Estimator, Sequence};
@@ -63,7 +64,7 @@ pub(super) struct Pilot<'a> {
     pub(super) values: Means,
     /// The counts of exceeded thresholds of the paths of a smaller net, by octave; empty if the
     /// estimator counts no strata.
-    pub(super) octaves: Vec<[Octaves; 3]>,
+    pub(super) levels: Vec<[LevelCounts; 3]>,
     /// The errors of paths by path bits, from [`FEWEST`] on; for a lattice, the only entry is its
     /// own.
     nets: Vec<Errors>,
@@ -121,7 +122,7 @@ impl<'a> Pilot<'a> {
             comparator_bits: 0,
             comparator_errors: Vec::new(),
             values: Vec::new(),
-            octaves: Vec::new(),
+            levels: Vec::new(),
             nets: Vec::new(),
             counted: Mutex::new(BTreeMap::new()),
             workers,
@@ -215,6 +216,11 @@ impl<'a> Pilot<'a> {
             .iter()
             .map(|tally| tally.colour.map(|sum| sum / paths as f64))
             .collect();
+        // A table of phases has no more address bits.
+        let most = match self.estimator {
+            Estimator::PhaseMean => LevelPhases::MOST_LEVEL_BITS,
+            _ => *COMPARATORS.end(),
+        };
         for (number, bits) in COMPARATORS.enumerate() {
             let ids = (paths << bits) as f64;
             let counted: Means = found
@@ -231,15 +237,15 @@ impl<'a> Pilot<'a> {
             };
             self.comparator_bits = bits;
             let error = quantile(&self.comparator_errors, self.accuracy.confidence);
-            if error <= COMPARATORS_SHARE * self.accuracy.error {
+            if bits == most || error <= COMPARATORS_SHARE * self.accuracy.error {
                 break;
             }
         }
         self.values = means;
-        if self.estimator.counts_strata() {
+        if self.estimator.counts_strata() || self.estimator.reads_levels() {
             let chosen = self.comparator_bits;
             let found = self.tallied(chosen..=chosen)?;
-            self.octaves = found.into_iter().map(|tally| tally.octaves).collect();
+            self.levels = found.into_iter().map(|tally| tally.levels).collect();
         }
         Ok(())
     }

@@ -31,6 +31,13 @@ pub enum RenderError {
          measures none: choose another estimator, or three runs"
     )]
     NothingMeasured,
+    /// A colour from one run is requested with an estimator whose measured paths are not a sample of
+    /// the good indices.
+    #[error(
+        "colour from one run is that of good indices, and the estimator `phase-mean` measures paths by \
+         their phases: choose another estimator, or three runs"
+    )]
+    MeanOfOneRun,
     /// Noise of measurements is requested with an estimator that measures nothing.
     #[error(
         "noise is that of queries and measurements, and the estimator `exact` makes none: choose \

@@ -8,12 +8,13 @@ use super::{BoxedEstimator, Colour, RenderError, RenderOptions};
 use crate::checkpoint::PixelPart;
 use crate::path_machines::{PathBlock, PathMachine, Traced};
 use crate::workers::{Progress, Workers};
+use qrt_circuit::quantum::LevelPhases;
 use qrt_core::oracle::luminance;
 use qrt_counting::estimators::{
     AmplitudeEstimator, CountingProblem, Device, Estimate, EstimatorError, Noise, Settings,
 };
 use qrt_counting::random::Stream;
-use qrt_counting::{Comparators, Octaves};
+use qrt_counting::{Comparators, LevelCounts, Octaves};
 use qrt_scene::{Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -65,10 +66,42 @@ struct Counter {
     comparators: [Comparators; 3],
     /// An estimator for each channel; only one, of the luminance, if the luminance is counted.
     estimators: Vec<BoxedEstimator>,
-    /// True if strata may be counted one by one.
-    by_strata: bool,
+    /// The levels that the estimator reads.
+    levels: Levels,
     noise: Noise,
     one_run: Option<OneRun>,
+}
+
+/// The levels of a pixel's paths, as far as an estimator reads them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Levels {
+    /// Their sum alone.
+    Sum,
+    /// Sums by octave, since it may count strata one by one.
+    Octaves,
+    /// Each of them, since it may run the mean-phase circuit.
+    All,
+}
+
+impl Levels {
+    fn read_by(estimate: Estimator, scene: &Scene) -> Self {
+        if estimate.reads_levels() {
+            Self::All
+        } else if estimate.counts_strata() && scene.counting.strata != Some(1) {
+            Self::Octaves
+        } else {
+            Self::Sum
+        }
+    }
+
+    /// Counts of no paths.
+    fn empty(self, bits: u32) -> LevelCounts {
+        match self {
+            Self::Sum => LevelCounts::default(),
+            Self::Octaves => LevelCounts::Octaves(Octaves::new(bits)),
+            Self::All => LevelCounts::new(bits),
+        }
+    }
 }
 
 fn report(workers: &Workers<'_>, paths: u64) {
@@ -94,11 +127,18 @@ impl Pixels {
         if estimate == Estimator::Exact && options.noise != Noise::NONE {
             return Err(RenderError::NothingNoisy);
         }
+        let bits = scene.comparator.bits;
+        if estimate == Estimator::PhaseMean && bits > LevelPhases::MOST_LEVEL_BITS {
+            return Err(EstimatorError::LevelBits(bits).into());
+        }
         let by_strata = estimate.counts_strata() && scene.counting.strata != Some(1);
         let one_run = match options.colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
                 return Err(RenderError::NothingMeasured);
+            }
+            Colour::OneRun if estimate == Estimator::PhaseMean => {
+                return Err(RenderError::MeanOfOneRun);
             }
             Colour::OneRun => Some(OneRun::new(&bound, scene, paths, by_strata)?),
         };
@@ -118,7 +158,7 @@ impl Pixels {
             Some(Counter {
                 comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimators: estimators.collect::<Result<_, _>>()?,
-                by_strata,
+                levels: Levels::read_by(estimate, scene),
                 noise: options.noise,
                 one_run,
             })
@@ -140,17 +180,17 @@ impl Pixels {
 
     /// Totals without any paths.
     fn empty_totals(&self) -> Totals {
-        let mut totals = Totals::default();
-        if self.by_octaves() {
-            totals.octaves = [(); 3].map(|()| Octaves::new(self.comparator_bits));
+        Totals {
+            levels: [(); 3].map(|()| self.levels().empty(self.comparator_bits)),
+            ..Totals::default()
         }
-        totals
     }
 
-    /// Returns whether the counts of channels are kept by octave.
-    fn by_octaves(&self) -> bool {
+    /// The levels that are kept for channels.
+    fn levels(&self) -> Levels {
         let counter = self.counter.as_ref();
-        counter.is_some_and(|counter| counter.by_strata && counter.one_run.is_none())
+        let counter = counter.filter(|counter| counter.one_run.is_none());
+        counter.map_or(Levels::Sum, |counter| counter.levels)
     }
 
     pub(super) fn bound(&self) -> [f64; 3] {
@@ -268,11 +308,9 @@ impl Pixels {
         for (total, good) in totals.good.iter_mut().zip(counts) {
             *total += good.iter().sum::<i64>().cast_unsigned();
         }
-        if self.by_octaves() {
-            for (octaves, good) in totals.octaves.iter_mut().zip(counts) {
-                for good in good {
-                    octaves.add(good.cast_unsigned());
-                }
+        if self.levels() != Levels::Sum {
+            for (levels, good) in totals.levels.iter_mut().zip(counts) {
+                levels.add_all(good.iter().map(|good| good.cast_unsigned()));
             }
         }
     }
@@ -348,15 +386,13 @@ impl Pixels {
                 Some(Counter {
                     one_run: Some(_), ..
                 }) => {}
-                Some(counter) if counter.by_strata => {
-                    let comparators = &counter.comparators[channel];
-                    let octaves = &mut totals.octaves[channel];
-                    for &colour in colours {
-                        octaves.add(comparators.good(colour).into());
-                    }
+                Some(counter) if counter.levels == Levels::Sum => {
+                    totals.good[channel] += counter.comparators[channel].good_total(colours);
                 }
                 Some(counter) => {
-                    totals.good[channel] += counter.comparators[channel].good_total(colours);
+                    let comparators = &counter.comparators[channel];
+                    let levels = colours.iter().map(|&colour| comparators.good(colour));
+                    totals.levels[channel].add_all(levels.map(u64::from));
                 }
             }
         }
@@ -489,14 +525,14 @@ impl Pixels {
         totals: &Totals,
     ) -> Result<Estimate, EstimatorError> {
         let mut stream = Stream::new(self.seed, x, y, channel as u8);
-        let mut device = if counter.by_strata {
-            Device::of_octaves(&totals.octaves[channel], counter.noise, &mut stream)?
-        } else {
+        let mut device = if counter.levels == Levels::Sum {
             let problem = CountingProblem {
                 good: totals.good[channel],
                 total: self.paths * counter.comparators[channel].count(),
             };
             Device::new(problem, counter.noise, &mut stream)?
+        } else {
+            totals.levels[channel].device(counter.noise, &mut stream)?
         };
         counter.estimators[channel].estimate(&mut device)
     }

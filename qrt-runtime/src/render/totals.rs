@@ -2,15 +2,15 @@
 
 use super::one_run::{OneRun, Segments};
 use crate::sample::Sum;
-use qrt_counting::Octaves;
+use qrt_counting::LevelCounts;
 
 /// Sums over the paths of a pixel, per channel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Totals {
     pub(super) colour: [Sum; 3],
     pub(super) good: [u64; 3],
-    /// The good indices by octave of their thresholds, if strata may be counted one by one.
-    pub(super) octaves: [Octaves; 3],
+    /// The levels of the paths, if the estimator asks for them.
+    pub(super) levels: [LevelCounts; 3],
     /// The counts of the luminance, if it is counted.
     pub(super) segments: Segments,
     /// Number of queries for primary hits.
@@ -27,9 +27,7 @@ impl Totals {
             let (paths, colour) = self.stray[channel];
             words.extend(self.colour[channel].encode());
             words.extend([self.good[channel], paths, colour.to_bits()]);
-            for (paths, sum) in self.octaves[channel].by_length() {
-                words.extend([paths, sum]);
-            }
+            self.levels[channel].encode(&mut words);
         }
         self.segments.encode(&mut words);
         words
@@ -42,7 +40,7 @@ impl Totals {
         for channel in 0..3 {
             self.colour[channel].append(&later.colour[channel]);
             self.good[channel] += later.good[channel];
-            self.octaves[channel].append(&later.octaves[channel]);
+            self.levels[channel].append(&later.levels[channel]);
             let (paths, colour) = later.stray[channel];
             let stray = &mut self.stray[channel];
             if stray.0 == 0 {
@@ -64,8 +62,7 @@ impl Totals {
             totals.colour[channel] = Sum::decode(sum.as_array()?)?;
             totals.good[channel] = words.next()?;
             totals.stray[channel] = (words.next()?, f64::from_bits(words.next()?));
-            let none = &totals.octaves[channel];
-            totals.octaves[channel] = none.with_lengths(|| Some((words.next()?, words.next()?)))?;
+            totals.levels[channel] = totals.levels[channel].decode(words)?;
         }
         totals.segments = Segments::decode(words, one_run)?;
         words.next().is_none().then_some(self)

@@ -1,6 +1,6 @@
 //! Estimates of pixels, drawn several times.
 
-use qrt_counting::Octaves;
+use qrt_counting::LevelCounts;
 use qrt_counting::estimators::{
     AmplitudeEstimator, CountingProblem, Device, EstimatorError, Noise, Settings, estimator,
 };
@@ -34,15 +34,15 @@ type Estimators = BTreeMap<u64, Box<dyn AmplitudeEstimator + Send + Sync>>;
 pub enum Countable<'a> {
     /// S, the number of good indices.
     Whole(&'a [[u64; 3]]),
-    /// Counts of exceeded thresholds by octave, so that strata may be counted one by one.
-    Octaves(&'a [[Octaves; 3]]),
+    /// The levels of paths, so that strata may be counted one by one and the mean phase be measured.
+    Levels(&'a [[LevelCounts; 3]]),
 }
 
 impl Countable<'_> {
     fn len(&self) -> usize {
         match self {
             Self::Whole(good) => good.len(),
-            Self::Octaves(good) => good.len(),
+            Self::Levels(good) => good.len(),
         }
     }
 }
@@ -108,8 +108,12 @@ impl Draws<'_> {
                         };
                         Device::new(problem, self.noise, &mut stream)?
                     }
-                    Countable::Octaves(octaves) => {
-                        Device::of_octaves(&octaves[place][channel], self.noise, &mut stream)?
+                    Countable::Levels(levels) if self.counting.estimator.reads_levels() => {
+                        levels[place][channel].device(self.noise, &mut stream)?
+                    }
+                    Countable::Levels(levels) => {
+                        let octaves = levels[place][channel].octaves();
+                        Device::of_octaves(&octaves, self.noise, &mut stream)?
                     }
                 };
                 let estimate = estimator.estimate(&mut device)?;

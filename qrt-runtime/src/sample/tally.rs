@@ -3,7 +3,7 @@
 use super::{SampleError, Sum};
 use crate::path_machines::{PathMachine, Traced};
 use crate::workers::Workers;
-use qrt_counting::{Comparators, Octaves};
+use qrt_counting::{Comparators, LevelCounts};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -17,8 +17,8 @@ pub struct Tally {
     pub colour: [f64; 3],
     /// Number of good indices, by register of comparators and by channel.
     pub good: Vec<[u64; 3]>,
-    /// The good indices of the first register, by channel and octave.
-    pub octaves: [Octaves; 3],
+    /// The levels of paths at the first register, by channel.
+    pub levels: [LevelCounts; 3],
 }
 
 impl Tally {
@@ -33,7 +33,7 @@ impl Tally {
                 *sum += more;
             }
         }
-        for (sum, more) in self.octaves.iter_mut().zip(&later.octaves) {
+        for (sum, more) in self.levels.iter_mut().zip(&later.levels) {
             sum.append(more);
         }
     }
@@ -83,8 +83,8 @@ impl Tally {
         Self {
             colour: [0.0; 3],
             good: vec![[0; 3]; comparators.len()],
-            octaves: first.map_or_else(Default::default, |first| {
-                first.each_ref().map(|c| Octaves::new(c.bits()))
+            levels: first.map_or_else(Default::default, |first| {
+                first.each_ref().map(|c| LevelCounts::new(c.bits()))
             }),
         }
     }
@@ -95,9 +95,8 @@ impl Tally {
                 good[channel] += comparators[channel].good_total(colours);
             }
             if let Some(first) = comparators.first() {
-                let octaves = &mut self.octaves[channel];
-                let counts = colours.iter().map(|&colour| first[channel].good(colour));
-                counts.for_each(|good| octaves.add(good.into()));
+                let levels = colours.iter().map(|&colour| first[channel].good(colour));
+                self.levels[channel].add_all(levels.map(u64::from));
             }
         }
     }
@@ -109,10 +108,8 @@ impl Tally {
         for (sum, good) in sums.iter_mut().zip(counts) {
             *sum += good.iter().sum::<i64>().cast_unsigned();
         }
-        for (octaves, good) in self.octaves.iter_mut().zip(counts) {
-            for good in good {
-                octaves.add(good.cast_unsigned());
-            }
+        for (levels, good) in self.levels.iter_mut().zip(counts) {
+            levels.add_all(good.iter().map(|good| good.cast_unsigned()));
         }
     }
 }

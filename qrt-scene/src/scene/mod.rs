@@ -601,8 +601,9 @@ impl Estimator {
     /// after every shot it knows the accuracy of each stratum, and can continue with any of them.
     pub const fn counts_strata(self) -> bool {
         match self {
-            Self::AdaptiveBayes | Self::RandomDepth => true,
+            Self::AdaptiveBayes | Self::Auto | Self::RandomDepth => true,
             Self::Exact
+            | Self::PhaseMean
             | Self::MonteCarlo
             | Self::Paper
             | Self::PosteriorMean
@@ -615,6 +616,12 @@ impl Estimator {
             | Self::Qcoin
             | Self::AbramsWilliams => false,
         }
+    }
+
+    /// True if the estimator may run the mean-phase circuit, which looks the phase of a path's level
+    /// up and therefore takes a comparator of few bits.
+    pub const fn reads_levels(self) -> bool {
+        matches!(self, Self::PhaseMean | Self::Auto)
     }
 
     /// True if the estimator reads a phase register: it repeatedly runs the circuit of quantum
@@ -630,6 +637,8 @@ impl Estimator {
             | Self::Chebyshev
             | Self::RandomDepth
             | Self::AdaptiveBayes
+            | Self::PhaseMean
+            | Self::Auto
             | Self::Qcoin
             | Self::AbramsWilliams => false,
         }
@@ -677,6 +686,10 @@ keyword! {
     Sine = "sine";
     /// Adaptive Bayesian estimation.
     AdaptiveBayes = "adaptive-bayes";
+    /// The mean as a phase, in units of the colours' standard deviation.
+    PhaseMean = "phase-mean";
+    /// `adaptive-bayes` or `phase-mean`, whichever is expected to have less error.
+    Auto = "auto";
     /// Random depths.
     RandomDepth = "random-depth";
     /// Maximum likelihood amplitude estimation.

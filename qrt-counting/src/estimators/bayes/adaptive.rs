@@ -1,7 +1,7 @@
 //! `adaptive-bayes`: chooses every query depth from the posterior.
 
 use super::run::Depths;
-use super::{Goal, strata};
+use super::{Goal, ways};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
 /// `adaptive-bayes`: single shots, each at the query depth that is expected to sharpen the
@@ -49,6 +49,6 @@ impl AdaptiveBayes {
 
 impl AmplitudeEstimator for AdaptiveBayes {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        strata::estimate(&self.goal, Depths::Adaptive, device)
+        ways::estimate(&self.goal, Depths::Adaptive, device)
     }
 }

@@ -14,7 +14,7 @@ pub(super) const WORTH: f64 = 1.15;
 /// Number of queries that a stratum's posterior takes to find the right section of its angles.
 const SEARCH: f64 = 4.0;
 /// Queries times standard deviation of an amplitude a, over `sqrt(a (1 - a))`; measured.
-const FAR: f64 = 2.2;
+pub(super) const FAR: f64 = 2.2;
 /// Queries squared times standard deviation of an amplitude of 0 or 1; measured.
 const NEAR: f64 = 0.63;
 

@@ -6,11 +6,14 @@
 //! another prior, whose bias is small: see [`unbiased`].
 //!
 //! * [`AdaptiveBayes`] chooses every query depth from the posterior;
-//! * [`RandomDepth`] draws its query depths at random.
+//! * [`RandomDepth`] draws its query depths at random;
+//! * [`PhaseMean`] goes on with the mean-phase circuit, whose phase is the mean itself.
 
 mod adaptive;
 mod choice;
 mod depth;
+mod mean;
+mod phase_mean;
 mod posterior;
 mod random_depth;
 mod run;
@@ -23,8 +26,10 @@ mod tests;
 mod unbiased;
 #[cfg(test)]
 mod unbiased_tests;
+mod ways;
 
 pub use adaptive::AdaptiveBayes;
+pub use phase_mean::PhaseMean;
 pub use random_depth::RandomDepth;
 
 use crate::estimators::{EstimatorError, Noise, Settings};
@@ -37,6 +42,8 @@ struct Goal {
     error: Option<f64>,
     confidence: f64,
     strata: Option<u32>,
+    /// True if the run may go on with the mean-phase circuit.
+    mean_phase: bool,
     noise: Noise,
 }
 
@@ -51,6 +58,7 @@ impl Goal {
             error: settings.error,
             confidence: settings.confidence,
             strata: settings.strata,
+            mean_phase: false,
             noise: settings.known_noise,
         })
     }

@@ -1,7 +1,7 @@
 //! `random-depth`: query depths drawn at random from a growing range.
 
 use super::run::Depths;
-use super::{Goal, strata};
+use super::{Goal, ways};
 use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Settings};
 
 /// `random-depth`: single shots after a random number of iterations, and the estimate of
@@ -40,6 +40,6 @@ impl RandomDepth {
 
 impl AmplitudeEstimator for RandomDepth {
     fn estimate(&self, device: &mut Device<'_>) -> Result<Estimate, EstimatorError> {
-        strata::estimate(&self.goal, Depths::RANDOM, device)
+        ways::estimate(&self.goal, Depths::RANDOM, device)
     }
 }

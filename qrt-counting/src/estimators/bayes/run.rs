@@ -56,6 +56,18 @@ impl<'a> Run<'a> {
         Goal::is_known(&self.posterior)
     }
 
+    /// Measures `paths` random paths, and returns the number of queries used.
+    pub(super) fn sample(
+        &mut self,
+        device: &mut Device<'_>,
+        paths: u64,
+    ) -> Result<u64, EstimatorError> {
+        let good = device.iterated(0, paths)?;
+        self.posterior.observe(0, good, paths - good);
+        self.used += paths;
+        Ok(paths)
+    }
+
     /// Makes the next measurement, of at most `left` queries, and returns the number of queries
     /// used.
     ///

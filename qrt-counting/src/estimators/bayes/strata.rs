@@ -30,19 +30,10 @@
 //! `a_k`, the overestimates of empty strata would add up and be the largest part of the error. The
 //! prior of strata is therefore [`Prior::Ends`]. Their intervals are still those of a uniform
 //! prior.
-//!
-//! # How many strata
-//!
-//! Unless the number is requested, the run counts the whole as usual until it has measured enough
-//! indices. Each shot measures one, and the colour of its path shows how colours are spread. From
-//! the colours follow all `a_k`, roughly, and the error that each number of strata would have. If a
-//! number is better by [`choice::WORTH`] with the remaining queries, the run discards its posterior
-//! and begins anew with strata. If not, it continues, and is the same, query by query, as without
-//! strata.
 
+use super::Goal;
 use super::run::{Depths, Run};
 use super::support::Prior;
-use super::{Goal, choice};
 use crate::Stratum;
 use crate::estimators::device::Usage;
 use crate::estimators::{CountedStratum, Device, Estimate, EstimatorError};
@@ -62,39 +53,8 @@ struct StratumRun<'a> {
     good_ids: u64,
 }
 
-/// Runs once: over the whole, over the requested number of strata, or over the number that seems
-/// best.
-pub(super) fn estimate(
-    goal: &Goal,
-    depths: Depths,
-    device: &mut Device<'_>,
-) -> Result<Estimate, EstimatorError> {
-    let start = device.usage();
-    let bits = device.comparator_bits();
-    if let (Some(bits), Some(strata @ 2..)) = (bits, goal.strata) {
-        return in_strata(goal, depths, device, start, bits, strata);
-    }
-    let mut undecided = bits.filter(|_| goal.strata.is_none());
-    let mut whole = Run::new(goal, depths, device.total(), Prior::Even);
-    let mut left = goal.queries;
-    while left > 0 && !goal.is_reached(&whole.posterior) {
-        left -= whole.step(device, left)?;
-        let Some(bits) = undecided else {
-            continue;
-        };
-        let amplitude = || whole.posterior.mean_amplitude();
-        if let Some(strata) = choice::decided(device, bits, amplitude, goal.queries, left) {
-            undecided = None;
-            if strata > 1 {
-                return in_strata(goal, depths, device, start, bits, strata);
-            }
-        }
-    }
-    Ok(whole.posterior.sharpened().estimate(device, start, goal))
-}
-
 /// Counts `strata` strata, each on its own, with the queries that remain since `start`.
-fn in_strata(
+pub(super) fn estimate(
     goal: &Goal,
     depths: Depths,
     device: &mut Device<'_>,

@@ -13,6 +13,7 @@
 use super::{CountingProblem, Device, Usage};
 use crate::estimators::{EstimatorError, Noise};
 use crate::random::Stream;
+use crate::strata::length_of;
 use crate::{Angle, Octaves, Stratum, binomial};
 
 /// The distribution of colours behind a device, and the part of it that has been measured.
@@ -30,6 +31,10 @@ pub(super) struct Known {
     counted: Vec<CountedStratum>,
     /// The strata that have been measured on their own.
     parts: Vec<(Stratum, CountingProblem, Angle)>,
+    /// The levels of the paths and their numbers of paths, if they are known one by one.
+    pub(super) levels: Vec<(u64, u64)>,
+    /// Numbers of good indices and of others that have been measured, by these levels.
+    pub(super) measured_levels: Vec<[u64; 2]>,
 }
 
 impl Known {
@@ -112,6 +117,8 @@ impl<'a> Device<'a> {
             stream: stream.beside(),
             counted: Vec::new(),
             parts: Vec::new(),
+            levels: Vec::new(),
+            measured_levels: Vec::new(),
         };
         let mut device = Self::new(problem, noise, stream)?;
         device.known = Some(Box::new(known));
@@ -175,22 +182,50 @@ impl<'a> Device<'a> {
             return;
         };
         let Known {
+            bits,
             lengths,
             measured,
+            levels,
+            measured_levels,
             stream,
             ..
         } = &mut **known;
-        for (which, mut found) in found.into_iter().enumerate() {
-            let mut rest: u64 = lengths.iter().map(|indices| indices[which]).sum();
-            for (indices, measured) in lengths.iter().zip(measured.iter_mut()) {
-                if found == 0 || rest == 0 {
-                    break;
-                }
-                let here = binomial::draw(found, indices[which], rest, stream);
-                measured[which] += here;
-                found -= here;
-                rest -= indices[which];
+        if levels.is_empty() {
+            let indices = lengths.iter().copied();
+            share(found, &indices, stream, |length, which, here| {
+                measured[length][which] += here;
+            });
+        } else {
+            let indices = levels.iter().map(|&(level, paths)| {
+                let good = level * paths;
+                [good, (paths << *bits) - good]
+            });
+            share(found, &indices, stream, |place, which, here| {
+                measured_levels[place][which] += here;
+                measured[length_of(levels[place].0)][which] += here;
+            });
+        }
+    }
+}
+
+/// Draws to which of the `indices`, good ones and others by place, the `found` ones belong. Passes
+/// the place, 0 for good ones or 1, and the number to `add`.
+fn share(
+    found: [u64; 2],
+    indices: &(impl Iterator<Item = [u64; 2]> + Clone),
+    stream: &mut Stream,
+    mut add: impl FnMut(usize, usize, u64),
+) {
+    for (which, mut found) in found.into_iter().enumerate() {
+        let mut rest: u64 = indices.clone().map(|indices| indices[which]).sum();
+        for (place, indices) in indices.clone().enumerate() {
+            if found == 0 || rest == 0 {
+                break;
             }
+            let here = binomial::draw(found, indices[which], rest, stream);
+            add(place, which, here);
+            found -= here;
+            rest -= indices[which];
         }
     }
 }

@@ -1,0 +1,202 @@
+//! Colours of measured paths, and what the mean-phase circuit takes from them.
+
+use qrt_circuit::quantum::LevelPhases;
+
+/// sigma times the slope: the colours' standard deviation in units of the phases. The signal turns
+/// fastest at 1, and is seen best at less.
+const ETA: f64 = 0.6;
+/// Number of paths that may have been missed at any colour.
+const UNSEEN: f64 = 1.5;
+/// Number of octaves of colours that may have been missed.
+const OCTAVES: u32 = 8;
+
+/// A colour in [0, 1], how often it was measured, and the density of measurements.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    colour: f64,
+    times: f64,
+    /// The expected number of measurements of a path of this colour, in units of that of a path
+    /// drawn at random once.
+    density: f64,
+}
+
+/// A shot of the mean-phase circuit, and the density of the paths that it measures.
+#[derive(Clone, Copy, Debug)]
+struct Shot {
+    slope: f64,
+    reference: f64,
+    iterations: f64,
+    /// The inverse of the mean density of all colours.
+    norm: f64,
+}
+
+impl Shot {
+    /// The probability to measure a path of this colour, over its fraction of all paths.
+    ///
+    /// Let the other paths keep their amplitude. Each iterate then takes a path's amplitude a to
+    /// `exp(i phi) (2 - a)`. It turns around `sqrt(1 + y^2)`, y = tan(phi/2), by `phi + pi` an
+    /// iterate: a path far from the reference takes many iterates to be seen.
+    fn density(&self, colour: f64) -> f64 {
+        let y = self.slope * (colour - self.reference);
+        let centre = (1.0 + y * y).sqrt();
+        let sine = libm::sin(self.iterations * libm::atan2(1.0, y.abs()));
+        (1.0 + 4.0 * centre * (centre - 1.0) * sine * sine) * self.norm
+    }
+}
+
+/// Colours of measured paths, each with the weight that undoes the circuits' preference.
+///
+/// All shots together are one sample, whose density is the sum of theirs (the *balance heuristic*
+/// of Veach & Guibas 1995). So a colour that one kind of shot would show rarely, and another often,
+/// has the weight of the latter.
+#[derive(Clone, Debug)]
+pub(super) struct Colours {
+    all: f64,
+    /// Number of paths drawn at random.
+    sampled: f64,
+    /// Number of measurements.
+    times: f64,
+    /// In ascending order.
+    seen: Vec<Seen>,
+    /// Colours that no path may have: they bound the variance that has been missed.
+    unseen: Vec<Seen>,
+    shots: Vec<Shot>,
+}
+
+/// Properties of the circuit at a reference, as the colours show them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spread {
+    /// The standard deviation of colours, with that of colours that may have been missed.
+    pub(super) deviation: f64,
+    /// The factor of a colour's distance from the reference.
+    pub(super) slope: f64,
+    /// The eigenphase over the mean's distance from the reference.
+    pub(super) gain: f64,
+    /// The fraction of the signal that has this eigenphase.
+    pub(super) visibility: f64,
+}
+
+/// The variance that paths may add which `times` measurements have missed.
+///
+/// Their mean colour is at most that of all paths, so they are fewer the brighter they are.
+pub(super) fn missed(mean: f64, times: f64) -> f64 {
+    let rare = 0.5 / (times + 1.0);
+    let mean = mean.clamp(rare, 1.0 - rare);
+    UNSEEN * mean * (1.0 - mean) / times
+}
+
+impl Colours {
+    /// The colours of paths drawn at random: levels over `2^bits`, and how often they were drawn.
+    pub(super) fn of_random(levels: impl Iterator<Item = (u64, u64)>, bits: u32) -> Self {
+        let all = (1_u64 << bits) as f64;
+        let drawn = levels.filter(|&(_, times)| times > 0);
+        let drawn: Vec<(f64, f64)> = drawn
+            .map(|(level, times)| (level as f64 / all, times as f64))
+            .collect();
+        let sampled = drawn.iter().map(|(_, times)| times).sum();
+        let entry = |(colour, times)| Seen {
+            colour,
+            times,
+            density: sampled,
+        };
+        let bright = (0..=2 * OCTAVES).map(|n| libm::exp2(-0.5 * f64::from(n)));
+        let unseen = bright.chain([0.0]).map(|colour| entry((colour, 0.0)));
+        Self {
+            all,
+            sampled,
+            times: sampled,
+            seen: drawn.into_iter().map(entry).collect(),
+            unseen: unseen.collect(),
+            shots: Vec::new(),
+        }
+    }
+
+    /// The mean of the colours.
+    pub(super) fn mean(&self) -> f64 {
+        let (mut weights, mut sum) = (0.0, 0.0);
+        for seen in &self.seen {
+            let weight = seen.times / seen.density;
+            weights += weight;
+            sum += weight * seen.colour;
+        }
+        if weights > 0.0 { sum / weights } else { 0.0 }
+    }
+
+    /// Number of paths that were drawn at random.
+    pub(super) fn sampled(&self) -> f64 {
+        self.sampled
+    }
+
+    /// Adds the level that a shot of the mean-phase circuit measured after k iterates.
+    pub(super) fn add(&mut self, level: u64, phases: &LevelPhases, k: u64) {
+        let mut shot = Shot {
+            slope: phases.slope(),
+            reference: phases.reference(),
+            iterations: k as f64,
+            norm: 1.0,
+        };
+        let (mut weights, mut sum) = (0.0, 0.0);
+        for seen in &self.seen {
+            let weight = seen.times / seen.density;
+            weights += weight;
+            sum += weight * shot.density(seen.colour);
+        }
+        if sum > 0.0 {
+            shot.norm = weights / sum;
+        }
+        for seen in self.seen.iter_mut().chain(&mut self.unseen) {
+            seen.density += shot.density(seen.colour);
+        }
+        self.shots.push(shot);
+        self.times += 1.0;
+        let colour = level as f64 / self.all;
+        match (self.seen).binary_search_by(|seen| seen.colour.total_cmp(&colour)) {
+            Ok(place) => self.seen[place].times += 1.0,
+            Err(place) => {
+                let shots: f64 = self.shots.iter().map(|shot| shot.density(colour)).sum();
+                let new = Seen {
+                    colour,
+                    times: 1.0,
+                    density: self.sampled + shots,
+                };
+                self.seen.insert(place, new);
+            }
+        }
+    }
+
+    /// The circuit's properties at this reference.
+    pub(super) fn at(&self, reference: f64) -> Spread {
+        let square = |seen: &Seen| {
+            let distance = seen.colour - reference;
+            distance * distance
+        };
+        let (mut weights, mut sum) = (0.0, 0.0);
+        for seen in &self.seen {
+            let weight = seen.times / seen.density;
+            weights += weight;
+            sum += weight * square(seen);
+        }
+        let known = if weights > 0.0 { sum / weights } else { 0.0 };
+        let unseen = self.unseen.iter().map(|seen| square(seen) / seen.density);
+        let unseen = UNSEEN * unseen.fold(0.0, f64::max);
+        let unseen = unseen.min(missed(reference, self.times));
+        let deviation = (known + unseen).sqrt();
+        let slope = ETA / deviation;
+        let spread = slope * slope * known;
+        let mut lengths = 0.0;
+        for seen in &self.seen {
+            lengths += seen.times / seen.density * (1.0 + slope * slope * square(seen)).sqrt();
+        }
+        let length = if weights > 0.0 {
+            lengths / weights
+        } else {
+            1.0
+        };
+        Spread {
+            deviation,
+            slope,
+            gain: 2.0 * slope / (1.0 + spread),
+            visibility: (length * length / (1.0 + spread)).min(1.0),
+        }
+    }
+}
