@@ -1,9 +1,7 @@
 //! Colours of a pixel's paths, as levels: how many paths exceed how many thresholds.
 
 use crate::Octaves;
-use crate::estimators::{Device, EstimatorError, Noise};
-use crate::random::Stream;
-use qrt_circuit::quantum::LevelPhases;
+use qrt_circuit::quantum::MAX_LEVEL_BITS;
 
 /// Number of paths by level: the number of thresholds, of `2^bits`, that a path's colour exceeds.
 ///
@@ -85,6 +83,16 @@ impl Histogram {
     }
 }
 
+impl From<&Histogram> for Octaves {
+    fn from(histogram: &Histogram) -> Self {
+        let mut octaves = Self::new(histogram.bits);
+        for (level, paths) in histogram.levels() {
+            octaves.add_paths(level, paths);
+        }
+        octaves
+    }
+}
+
 /// The levels of a pixel's paths: one by one for a comparator that the mean-phase circuit takes, or
 /// else by octave.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -104,7 +112,7 @@ impl Default for LevelCounts {
 impl LevelCounts {
     /// Creates counts of no paths, for a comparator of `bits` bits: one by one up to 12 bits.
     pub fn new(bits: u32) -> Self {
-        if bits <= LevelPhases::MOST_LEVEL_BITS {
+        if bits <= MAX_LEVEL_BITS {
             Self::Histogram(Histogram::new(bits))
         } else {
             Self::Octaves(Octaves::new(bits))
@@ -143,22 +151,6 @@ impl LevelCounts {
         match self {
             Self::Octaves(octaves) => octaves.clone(),
             Self::Histogram(histogram) => Octaves::from(histogram),
-        }
-    }
-
-    /// A device that knows these levels, as exactly as they are known: see [`Device::of_octaves`]
-    /// and [`Device::of_histogram`].
-    ///
-    /// # Errors
-    /// No paths, or noise out of range.
-    pub fn device<'a>(
-        &self,
-        noise: Noise,
-        stream: &'a mut Stream,
-    ) -> Result<Device<'a>, EstimatorError> {
-        match self {
-            Self::Octaves(octaves) => Device::of_octaves(octaves, noise, stream),
-            Self::Histogram(histogram) => Device::of_histogram(histogram, noise, stream),
         }
     }
 

@@ -14,7 +14,6 @@
 //! bit `o - 1` set and none above it. For these bits, the circuit of a stratum has an X or nothing
 //! where the circuit of the whole range has a Hadamard.
 
-use crate::Histogram;
 use std::ops::Range;
 
 /// A range of thresholds that begins and ends with octaves.
@@ -124,9 +123,15 @@ impl Octaves {
     /// Adds a path whose colour exceeds `count` thresholds, at most `2^bits`.
     #[inline]
     pub fn add(&mut self, count: u64) {
+        self.add_paths(count, 1);
+    }
+
+    /// Adds `paths` paths whose colours exceed `count` thresholds, at most `2^bits`.
+    #[inline]
+    pub(crate) fn add_paths(&mut self, count: u64, paths: u64) {
         let length = length_of(count);
-        self.paths[length] += 1;
-        self.sums[length] += count;
+        self.paths[length] += paths;
+        self.sums[length] += count * paths;
     }
 
     /// Adds the paths of `other`, which has the same comparator.
@@ -180,18 +185,6 @@ impl Octaves {
                 good
             })
             .collect()
-    }
-}
-
-impl From<&Histogram> for Octaves {
-    fn from(histogram: &Histogram) -> Self {
-        let mut octaves = Self::new(histogram.bits());
-        for (level, paths) in histogram.levels() {
-            let length = length_of(level);
-            octaves.paths[length] += paths;
-            octaves.sums[length] += level * paths;
-        }
-        octaves
     }
 }
 

@@ -104,6 +104,8 @@ const MODULES: &[(&str, &[&str])] = &[
             "measured",
             "comparator",
             "strata",
+            "histogram",
+            "mean_signal",
             "lookup",
             "likelihood",
             "posterior",

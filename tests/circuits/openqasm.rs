@@ -78,6 +78,7 @@ impl Circuit {
                         "work",
                         "phase_register",
                         "bond",
+                        "sign",
                     ];
                     assert!(known.contains(&name), "{name}");
                     let end = read.qubits + size;

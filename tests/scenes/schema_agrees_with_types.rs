@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Codes of errors that relate values to each other, or concern files: a schema cannot express them.
-const RELATIONS: [&str; 22] = [
+const RELATIONS: [&str; 23] = [
     codes::SKY,
     codes::NO_LENS,
     codes::PRIMARY_LIGHT,
@@ -57,6 +57,7 @@ const RELATIONS: [&str; 22] = [
     codes::ACCURACY_CONFLICT,
     codes::STRATA,
     codes::NEVER_STOPS,
+    codes::LEVEL_BITS,
 ];
 
 fn is_relation(code: &str) -> bool {

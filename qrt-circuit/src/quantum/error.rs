@@ -1,6 +1,6 @@
 //! Errors of the counting circuit.
 
-use super::{LevelPhases, MAX_PHASE_BITS};
+use super::{MAX_LEVEL_BITS, MAX_PHASE_BITS};
 use crate::Qubit;
 use std::fmt;
 
@@ -82,7 +82,7 @@ impl fmt::Display for QuantumError {
             Self::LevelBits => write!(
                 f,
                 "phases of levels have 2 to 51 bits, and levels at most {}",
-                LevelPhases::MOST_LEVEL_BITS
+                MAX_LEVEL_BITS
             ),
         }
     }

@@ -1,6 +1,6 @@
 //! The phases that a circuit turns a path's level into.
 
-use super::QuantumError;
+use super::{MAX_LEVEL_BITS, QuantumError};
 
 /// A phase for each level of a colour: `phi = 2 arctan(slope (x - reference))`, x = level / 2^c.
 ///
@@ -24,8 +24,6 @@ pub struct LevelPhases {
 }
 
 impl LevelPhases {
-    /// The most bits of a level's number of thresholds.
-    pub const MOST_LEVEL_BITS: u32 = 12;
     /// The fewest and the most bits of a phase.
     pub const BITS: std::ops::RangeInclusive<u32> = 2..=51;
 
@@ -33,7 +31,7 @@ impl LevelPhases {
     ///
     /// # Errors
     /// A slope that is not positive and finite; a reference that is not in [0, 1]; more than
-    /// [`LevelPhases::MOST_LEVEL_BITS`] bits of levels; bits outside of [`LevelPhases::BITS`].
+    /// [`MAX_LEVEL_BITS`] bits of levels; bits outside of [`LevelPhases::BITS`].
     pub fn new(
         slope: f64,
         reference: f64,
@@ -44,7 +42,7 @@ impl LevelPhases {
         if !inside {
             return Err(QuantumError::Slope);
         }
-        if level_bits > Self::MOST_LEVEL_BITS || !Self::BITS.contains(&bits) {
+        if level_bits > MAX_LEVEL_BITS || !Self::BITS.contains(&bits) {
             return Err(QuantumError::LevelBits);
         }
         Ok(Self {

@@ -61,5 +61,8 @@ pub use mean_phase::MeanPhaseCircuit;
 pub use oracle::{Flip, PhaseOracle};
 pub use window::Window;
 
+/// The most bits of a level's number of thresholds, of which a table looks the phase up.
+pub const MAX_LEVEL_BITS: u32 = 12;
+
 /// The most qubits that a phase register may have.
 pub const MAX_PHASE_BITS: u32 = 40;

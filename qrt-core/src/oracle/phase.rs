@@ -2,7 +2,7 @@
 
 use super::Oracle;
 use crate::compile::{Label, StageName};
-use qrt_circuit::quantum::{LevelPhases, PhaseOracle, QuantumError};
+use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS, PhaseOracle, QuantumError};
 use qrt_circuit::{
     Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Style, Type, lower,
 };
@@ -12,7 +12,7 @@ pub const MOST_BITS: u64 = 1 << 19;
 
 /// Most bits of a count whose phase is looked up: those of a level, one for a count of all thresholds,
 /// and a sign.
-const ADDRESS_BITS: u32 = LevelPhases::MOST_LEVEL_BITS + 2;
+const ADDRESS_BITS: u32 = MAX_LEVEL_BITS + 2;
 
 impl Oracle {
     /// The circuit of channel number `channel` of [`Oracle::channels`] in pixel (column, row): its
@@ -125,14 +125,18 @@ impl Oracle {
                 (bits.collect(), entries.collect())
             }
         };
+        let columns = vec![entries];
         let look_up = Op::Table {
+            low: lower::best_low(address.len() as u32, &columns),
             address: address.into(),
-            columns: vec![entries].into(),
-            low: 0,
-            style: Style::InPlace,
+            columns: columns.into(),
+            style: Style::OutOfPlace,
             targets: Box::new([word]),
             scratch,
         };
+        let width = |register: RegisterId| program.registers[register.index()].width;
+        let garbage = lower::scratch_width(&look_up, width);
+        program.registers[scratch.index()].width = garbage;
         program.ops.push(look_up);
         let turns = (0..bits).map(|bit| Op::Phase {
             bit: Bit::at(word, bit),

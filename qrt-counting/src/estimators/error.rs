@@ -1,11 +1,11 @@
 //! Errors of estimators: invalid settings and problems.
 
 use crate::CountingError;
-use qrt_circuit::quantum::LevelPhases;
+use qrt_circuit::quantum::MAX_LEVEL_BITS;
 use qrt_scene::Estimator;
 
 /// The most bits of a comparator whose levels `phase-mean` looks up.
-const MOST_LEVEL_BITS: u32 = LevelPhases::MOST_LEVEL_BITS;
+const MOST_LEVEL_BITS: u32 = MAX_LEVEL_BITS;
 
 /// The largest number of Grover iterations between preparation and measurement.
 pub const MAX_ITERATIONS: u64 = 1 << 44;
@@ -41,7 +41,7 @@ pub enum EstimatorError {
     /// Strata of the comparator, requested from an estimator that counts only the whole.
     #[error(
         "{strata} strata, and the estimator `{estimator}` counts the whole comparator at once: choose \
-         `adaptive-bayes` or `random-depth`, or `counting.strata=1`"
+         `adaptive-bayes`, `auto` or `random-depth`, or `counting.strata=1`"
     )]
     Strata {
         /// The estimator.
@@ -59,7 +59,7 @@ pub enum EstimatorError {
     /// A comparator with more bits than a table of phases has address bits.
     #[error(
         "a comparator of {0} bits; `phase-mean` looks the phase of a path's level up, and takes at most \
-         {MOST_LEVEL_BITS}"
+         {MOST_LEVEL_BITS}: set `comparator.bits` to fewer, or choose `auto`"
     )]
     LevelBits(u32),
     /// The slope or the reference of a mean phase is out of range.

@@ -5,7 +5,7 @@ use crate::models::{MachineOptions, Machines, Model, path_machines};
 use crate::path_machines::{PathMachine, Real};
 use crate::sample::{Means, Tally, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
-use qrt_circuit::quantum::LevelPhases;
+use qrt_circuit::quantum::MAX_LEVEL_BITS;
 use qrt_core::oracle::{CallCost, Oracles};
 use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
@@ -218,7 +218,7 @@ impl<'a> Pilot<'a> {
             .collect();
         // A table of phases has no more address bits.
         let most = match self.estimator {
-            Estimator::PhaseMean => LevelPhases::MOST_LEVEL_BITS,
+            Estimator::PhaseMean => MAX_LEVEL_BITS,
             _ => *COMPARATORS.end(),
         };
         for (number, bits) in COMPARATORS.enumerate() {

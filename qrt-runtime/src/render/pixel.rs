@@ -8,7 +8,7 @@ use super::{BoxedEstimator, Colour, RenderError, RenderOptions};
 use crate::checkpoint::PixelPart;
 use crate::path_machines::{PathBlock, PathMachine, Traced};
 use crate::workers::{Progress, Workers};
-use qrt_circuit::quantum::LevelPhases;
+use qrt_circuit::quantum::MAX_LEVEL_BITS;
 use qrt_core::oracle::luminance;
 use qrt_counting::estimators::{
     AmplitudeEstimator, CountingProblem, Device, Estimate, EstimatorError, Noise, Settings,
@@ -128,7 +128,7 @@ impl Pixels {
             return Err(RenderError::NothingNoisy);
         }
         let bits = scene.comparator.bits;
-        if estimate == Estimator::PhaseMean && bits > LevelPhases::MOST_LEVEL_BITS {
+        if estimate == Estimator::PhaseMean && bits > MAX_LEVEL_BITS {
             return Err(EstimatorError::LevelBits(bits).into());
         }
         let by_strata = estimate.counts_strata() && scene.counting.strata != Some(1);
@@ -532,7 +532,7 @@ impl Pixels {
             };
             Device::new(problem, counter.noise, &mut stream)?
         } else {
-            totals.levels[channel].device(counter.noise, &mut stream)?
+            Device::of_levels(&totals.levels[channel], counter.noise, &mut stream)?
         };
         counter.estimators[channel].estimate(&mut device)
     }

@@ -109,7 +109,7 @@ impl Draws<'_> {
                         Device::new(problem, self.noise, &mut stream)?
                     }
                     Countable::Levels(levels) if self.counting.estimator.reads_levels() => {
-                        levels[place][channel].device(self.noise, &mut stream)?
+                        Device::of_levels(&levels[place][channel], self.noise, &mut stream)?
                     }
                     Countable::Levels(levels) => {
                         let octaves = levels[place][channel].octaves();

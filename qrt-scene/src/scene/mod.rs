@@ -575,7 +575,7 @@ record! {
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
     /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
     /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
-    /// each channel of each pixel from what it measures first. Only `adaptive-bayes` and
+    /// each channel of each pixel from what it measures first. Only `adaptive-bayes`, `auto` and
     /// `random-depth` count by strata; under all others `auto` is 1.
     pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
     /// Half the width of the interval, in radiance, at which a channel of a pixel is done though

@@ -248,6 +248,8 @@ codes! {
         "Leave `counting.error` out, or use an estimator that decides itself what it measures";
     NO_LENS = "QRT0513", "a point on a lens where there is none",
         "Give the camera a `lens`, and sample it in the first entry of `depths`";
+    LEVEL_BITS = "QRT0514", "a comparator with more bits than the estimator looks up",
+        "Use at most 12 `comparator.bits`, or the estimator `auto`";
     BUDGET_QUBITS = "QRT0601", "a circuit with more qubits than the budget allows",
         "Uncompute earlier, or use fewer path bits, depths or fraction bits; or raise the limit";
     BUDGET_TOFFOLI = "QRT0602", "a circuit with more Toffoli gates than the budget allows",

@@ -1,8 +1,10 @@
 //! Checks of counting. Strata of the comparator need an estimator that counts them, and enough
-//! bits. An error to stop at needs an estimator that stops by itself.
+//! bits. An error to stop at needs an estimator that stops by itself. `phase-mean` needs a comparator
+//! of few bits.
 
 use crate::scene::{Estimator, Scene};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
+use qrt_circuit::quantum::MAX_LEVEL_BITS;
 
 /// Maximum number of strata of a comparator of `comparator_bits` bits: each halving fixes one bit.
 pub const fn most_strata(comparator_bits: u32) -> u32 {
@@ -12,6 +14,17 @@ pub const fn most_strata(comparator_bits: u32) -> u32 {
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     check_strata(scene, problems);
     let estimator = scene.counting.estimator;
+    let (bits, most) = (scene.comparator.bits, MAX_LEVEL_BITS);
+    if estimator == Estimator::PhaseMean && bits > most {
+        let what = Fault::LevelBits {
+            bits,
+            most,
+            estimator: estimator.name(),
+            counting: Estimator::Auto.name(),
+        };
+        let path = Path::root().key("counting").key("estimator");
+        problems.push(Problem::new(path, what).also(Path::root().key("comparator").key("bits")));
+    }
     if scene.counting.error.is_some() && !estimator.stops_itself() {
         let counting = Path::root().key("counting");
         let what = Fault::NeverStops {

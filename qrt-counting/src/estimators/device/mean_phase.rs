@@ -23,7 +23,7 @@ use super::Device;
 use crate::estimators::{EstimatorError, MAX_ITERATIONS, Noise, id_bits};
 use crate::mean_signal::{MeanSignal, MeanState};
 use crate::random::Stream;
-use crate::{Histogram, Octaves};
+use crate::{Histogram, LevelCounts, Octaves};
 use qrt_circuit::quantum::LevelPhases;
 
 /// The outcome of a shot of the mean-phase circuit.
@@ -52,6 +52,22 @@ impl<'a> Device<'a> {
             known.measured_levels = vec![[0; 2]; known.levels.len()];
         }
         Ok(device)
+    }
+
+    /// Creates a device that knows the levels of its paths as exactly as `levels` does: see
+    /// [`Device::of_octaves`] and [`Device::of_histogram`].
+    ///
+    /// # Errors
+    /// No paths, or noise out of range.
+    pub fn of_levels(
+        levels: &LevelCounts,
+        noise: Noise,
+        stream: &'a mut Stream,
+    ) -> Result<Self, EstimatorError> {
+        match levels {
+            LevelCounts::Octaves(octaves) => Self::of_octaves(octaves, noise, stream),
+            LevelCounts::Histogram(histogram) => Self::of_histogram(histogram, noise, stream),
+        }
     }
 
     /// Number of the comparator's bits, if the levels of paths are known one by one.

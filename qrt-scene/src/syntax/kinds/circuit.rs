@@ -51,6 +51,11 @@ problems! {
         NeverStops { estimator: &'static str, stopping: &'static str } = NEVER_STOPS
             "an error to stop at, and the estimator `{estimator}` does not stop by itself"
             help "leave `error` out, or use `estimator: {stopping}`" also "this estimator";
+        LevelBits { bits: u32, most: u32, estimator: &'static str, counting: &'static str } = LEVEL_BITS
+            "the estimator `{estimator}` looks the phase of a path's level up, and a comparator of {bits} \
+             bits has too many levels: at most {most} bits"
+            help "use `estimator: {counting}`, which counts where it cannot look up, or fewer bits"
+            also "these bits";
         Dimensions { dimensions: usize, most: usize } = TOO_MANY_IDS
             "{dimensions} coordinates per path; the digital net has {most}";
         PathBits { bits: u64, most: u32 } = TOO_MANY_IDS "{bits} path bits; an id holds {most}";

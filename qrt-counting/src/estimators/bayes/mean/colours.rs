@@ -28,6 +28,8 @@ struct Shot {
     iterations: f64,
     /// The inverse of the mean density of all colours.
     norm: f64,
+    /// The probability that noise leaves the shot intact. Otherwise it measures any path.
+    intact: f64,
 }
 
 impl Shot {
@@ -40,7 +42,8 @@ impl Shot {
         let y = self.slope * (colour - self.reference);
         let centre = (1.0 + y * y).sqrt();
         let sine = libm::sin(self.iterations * libm::atan2(1.0, y.abs()));
-        (1.0 + 4.0 * centre * (centre - 1.0) * sine * sine) * self.norm
+        let ideal = (1.0 + 4.0 * centre * (centre - 1.0) * sine * sine) * self.norm;
+        1.0 + self.intact * (ideal - 1.0)
     }
 }
 
@@ -128,12 +131,15 @@ impl Colours {
     }
 
     /// Adds the level that a shot of the mean-phase circuit measured after k iterates.
-    pub(super) fn add(&mut self, level: u64, phases: &LevelPhases, k: u64) {
+    ///
+    /// Noise has left the shot intact with probability `intact`.
+    pub(super) fn add(&mut self, level: u64, phases: &LevelPhases, k: u64, intact: f64) {
         let mut shot = Shot {
             slope: phases.slope(),
             reference: phases.reference(),
             iterations: k as f64,
             norm: 1.0,
+            intact: 1.0,
         };
         let (mut weights, mut sum) = (0.0, 0.0);
         for seen in &self.seen {
@@ -144,6 +150,7 @@ impl Colours {
         if sum > 0.0 {
             shot.norm = weights / sum;
         }
+        shot.intact = intact;
         for seen in self.seen.iter_mut().chain(&mut self.unseen) {
             seen.density += shot.density(seen.colour);
         }

@@ -25,19 +25,20 @@ mod grid;
 use super::{Goal, choice};
 use crate::estimators::device::Usage;
 use crate::estimators::normal::normal_quantile;
-use crate::estimators::{Device, Estimate, EstimatorError};
+use crate::estimators::{Device, Estimate, EstimatorError, id_bits};
 use colours::Colours;
 use grid::Grid;
-use qrt_circuit::quantum::LevelPhases;
+use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS};
 
 /// Queries times the standard deviation of a mean, over sigma; measured.
 const ERROR: f64 = 3.4;
 /// The smallest number of measured paths from whose colours their spread is taken.
 const FEWEST: u64 = 12;
-/// At least one query of this many draws no path of the pilot before the decision.
-const DECIDES: u64 = 20;
+/// The smallest numbers of queries of a run that decides once, and of one that decides twice.
+const ONCE: u64 = 60;
+const TWICE: u64 = 240;
 /// The most queries of a shot.
-const DEEPEST: u64 = 1 << 40;
+const DEEPEST: u64 = (1 << 40) - 1;
 /// Bits of a phase beyond those of the depth: the phases of a shot are off by at most
 /// `2 pi 2^-FINER` in all.
 const FINER: u32 = 12;
@@ -53,7 +54,7 @@ const EXPLAINED: f64 = 0.95;
 /// Checks that the device runs the mean-phase circuit.
 pub(super) fn check(device: &Device<'_>) -> Result<u32, EstimatorError> {
     let bits = device.level_bits().ok_or(EstimatorError::NoLevels)?;
-    if bits > LevelPhases::MOST_LEVEL_BITS {
+    if bits > MAX_LEVEL_BITS {
         return Err(EstimatorError::LevelBits(bits));
     }
     Ok(bits)
@@ -78,11 +79,20 @@ impl Pilot {
         })
     }
 
-    /// Number of paths to draw next, in a run of `queries` queries; none if there are enough to
-    /// decide against the mean phase.
+    /// Number of paths to draw next in a run of `queries` queries; none if there are enough to decide
+    /// against the mean phase.
+    ///
+    /// A run decides on [`FEWEST`] paths, and again on twice as many. One of few queries decides once,
+    /// or counts at once.
     pub(super) fn next(&self, queries: u64) -> Option<u64> {
-        let most = FEWEST.min(queries.div_ceil(DECIDES));
-        (self.paths < most || self.paths == FEWEST && queries >= DECIDES * FEWEST).then_some(FEWEST)
+        let most = if queries < ONCE {
+            0
+        } else if queries < TWICE {
+            FEWEST
+        } else {
+            2 * FEWEST
+        };
+        (self.paths < most).then_some(FEWEST)
     }
 
     fn colours(&self, device: &Device<'_>) -> Colours {
@@ -119,6 +129,8 @@ pub(super) fn estimate(
     let more = paths.saturating_sub(pilot.paths).min(left);
     device.paths(more);
     left -= more;
+    // The bits of the path index and the sign.
+    let read = goal.noise.read_rightly(id_bits(device.total() >> bits) + 1);
     let quantile = normal_quantile(0.5 * (1.0 - goal.confidence));
     let mut colours = pilot.colours(device);
     let mean = colours.mean();
@@ -133,8 +145,8 @@ pub(super) fn estimate(
         grid.narrow();
         let spread = colours.at(mean);
         grid.aim(spread.gain, mean);
-        let visibility =
-            |k: u64| spread.visibility * EXPLAINED * goal.noise.intact(k.saturating_add(1));
+        let intact = |k: u64| goal.noise.intact(k + 1) * read;
+        let visibility = |k: u64| spread.visibility * EXPLAINED * intact(k);
         let most = (left - 1).min(DEEPEST);
         let plan = grid.choose(spread.gain, deviation, most, visibility);
         let k = plan.iterations;
@@ -146,7 +158,7 @@ pub(super) fn estimate(
         })?;
         let shot = device.mean_phase(phases, k, plan.basis)?;
         grid.observe(&plan, visibility(k), shot.one);
-        colours.add(shot.level, &phases, k);
+        colours.add(shot.level, &phases, k, intact(k));
         left -= k + 1;
         (mean, deviation) = grid.moments();
     }
