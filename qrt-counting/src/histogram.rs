@@ -133,8 +133,13 @@ impl LevelCounts {
             (Self::Octaves(sums), Self::Octaves(other)) => sums.append(other),
             (Self::Histogram(sums), Self::Histogram(other)) => sums.append(other),
             // Counts of no paths, as `default` makes them.
-            (Self::Octaves(_), Self::Histogram(_)) => *self = other.clone(),
-            (Self::Histogram(_), Self::Octaves(_)) => {}
+            (Self::Octaves(sums), Self::Histogram(_)) => {
+                debug_assert_eq!(sums.paths(), 0, "levels of one comparator are of one kind");
+                *self = other.clone();
+            }
+            (Self::Histogram(_), Self::Octaves(other)) => {
+                debug_assert_eq!(other.paths(), 0, "levels of one comparator are of one kind");
+            }
         }
     }
 

@@ -39,6 +39,7 @@ pages! {
     grover = "grover.md",
     counting = "counting.md",
     estimators = "estimators.md",
+    mean_phase = "mean-phase.md",
     speed_up = "speed-up.md",
     estimators_exercises = "estimators-exercises.md",
     cost = "cost.md",

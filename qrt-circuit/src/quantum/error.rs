@@ -1,4 +1,4 @@
-//! Errors of the counting circuit.
+//! Errors of quantum circuits.
 
 use super::{MAX_LEVEL_BITS, MAX_PHASE_BITS};
 use crate::Qubit;
@@ -34,7 +34,8 @@ pub enum QuantumError {
     PhaseBitsOutOfRange(u32),
     /// The slope of levels' phases is not positive and finite, or their reference not in [0, 1].
     Slope,
-    /// An oracle of a mean-phase circuit flips another number of signs than a phase has bits.
+    /// An oracle of a mean-phase circuit flips another number of signs than a phase has bits, or one of
+    /// several qubits, or it has fixed qubits.
     PhaseSigns {
         /// Number of phase flips of a call of the oracle.
         signs: u64,
@@ -74,7 +75,8 @@ impl fmt::Display for QuantumError {
             ),
             Self::PhaseSigns { signs, bits } => write!(
                 f,
-                "an oracle with {signs} phase flips; phases have {bits} bits, each of which needs one"
+                "an oracle with {signs} phase flips; phases have {bits} bits, each of which needs a flip of \
+                 one qubit, and no qubit of the index is fixed"
             ),
             Self::Slope => f.write_str(
                 "phases of levels need a positive, finite slope and a reference from 0 to 1",

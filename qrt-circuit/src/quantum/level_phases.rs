@@ -73,7 +73,7 @@ impl LevelPhases {
         self.bits
     }
 
-    /// The phase of a level, in units of `2^-bits` turns: between `-2^(bits-1)` and `2^(bits-1)`,
+    /// The phase of a level, in units of `2^-bits` turns: at most `2^(bits-1) - 1` to either side of 0,
     /// ascending with the level. A level above `2^c` has the phase of `2^c`.
     pub fn word(&self, level: u64) -> i64 {
         let all = 1_u64 << self.level_bits;

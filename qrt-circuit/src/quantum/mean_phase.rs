@@ -40,7 +40,8 @@ impl<'a> MeanPhaseCircuit<'a> {
     /// `oracle` flips the sign of each bit of a phase of `phases`.
     ///
     /// # Errors
-    /// The oracle flips another number of signs than a phase has bits.
+    /// The oracle flips another number of signs than a phase has bits, or one of several qubits, or it
+    /// has fixed qubits.
     pub fn new(
         oracle: &'a PhaseOracle,
         phases: LevelPhases,
@@ -61,7 +62,7 @@ impl<'a> MeanPhaseCircuit<'a> {
         (iterations, basis): (u64, Turns),
         conjunction: Conjunction,
     ) -> Result<Self, QuantumError> {
-        if oracle.signs() != u64::from(phases.bits()) {
+        if oracle.signs() != u64::from(phases.bits()) || !oracle.flips_single_qubits() {
             return Err(QuantumError::PhaseSigns {
                 signs: oracle.signs(),
                 bits: phases.bits(),

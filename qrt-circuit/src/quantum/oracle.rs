@@ -276,6 +276,19 @@ impl PhaseOracle {
         }
     }
 
+    /// True if each phase flip is that of one qubit, and no qubit of the index is fixed.
+    pub(super) fn flips_single_qubits(&self) -> bool {
+        let single = |step: &Flip| match step {
+            Flip::Sign(qubits) => qubits.len() == 1,
+            Flip::Gate(_) => true,
+        };
+        let flips = match &self.steps {
+            Steps::Held { flip, .. } => flip.iter().all(single),
+            Steps::Lowered { .. } => true,
+        };
+        flips && self.index.len() == self.superposed.len()
+    }
+
     /// Emits the oracle's gates. With a `control`, only the phase flips are controlled: without a
     /// flip, uncompute cancels compute.
     ///

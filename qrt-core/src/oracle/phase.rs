@@ -72,7 +72,7 @@ impl Oracle {
     /// [`MeanPhaseCircuit`](qrt_circuit::quantum::MeanPhaseCircuit) turns these signs into phases.
     ///
     /// # Errors
-    /// The oracle has no channel of that number, or levels of another number of bits.
+    /// The oracle has no channel of that number, levels of another number of bits, or a single path.
     pub fn level_phases(
         &self,
         channel: usize,
@@ -87,6 +87,9 @@ impl Oracle {
 
     /// The program of [`Oracle::level_phases`].
     fn look_up(&self, channel: usize, phases: &LevelPhases) -> Result<Program, QuantumError> {
+        if self.points.path_bits() == 0 {
+            return Err(QuantumError::NoIndex);
+        }
         let channel = (self.channels.get(channel)).ok_or(QuantumError::NoChannel(channel))?;
         if phases.level_bits() != self.comparator_bits() {
             return Err(QuantumError::LevelBits);

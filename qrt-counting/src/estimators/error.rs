@@ -56,6 +56,14 @@ pub enum EstimatorError {
     /// Levels of paths, requested from a device that knows only the number of good indices.
     #[error("this device does not know the levels of its paths")]
     NoLevels,
+    /// A mean phase of levels that are not the device's.
+    #[error("phases of levels of {phases} bits, and the device's comparator has {device}")]
+    OtherLevels {
+        /// Number of bits of the device's comparator.
+        device: u32,
+        /// Number of bits of the levels that have phases.
+        phases: u32,
+    },
     /// A comparator with more bits than a table of phases has address bits.
     #[error(
         "a comparator of {0} bits; `phase-mean` looks the phase of a path's level up, and takes at most \
@@ -63,7 +71,10 @@ pub enum EstimatorError {
     )]
     LevelBits(u32),
     /// The slope or the reference of a mean phase is out of range.
-    #[error("a mean phase with slope {slope} and reference {reference}")]
+    #[error(
+        "a mean phase with slope {slope} and reference {reference}; a slope is above 0 and finite, and a \
+         reference in [0, 1]"
+    )]
     MeanPhase {
         /// The slope, which must be positive and finite.
         slope: f64,

@@ -245,7 +245,7 @@ impl Picture {
             total: all << self.comparator_bits,
         };
         let tallies = &self.tallies[range.clone()];
-        let drawn = if counting.may_count_strata() {
+        let drawn = if counting.reads_levels() {
             let levels: Vec<_> = tallies.iter().map(|t| t.levels.clone()).collect();
             draws.draw(pixels, &Countable::Levels(&levels))?
         } else {

@@ -280,7 +280,7 @@ impl<'a> Bench<'a> {
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
-        let by_strata = parameters.counting.may_count_strata();
+        let by_strata = parameters.counting.reads_levels();
         let draws = Draws {
             counting: &parameters.counting,
             scales: bounds,

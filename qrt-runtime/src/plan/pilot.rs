@@ -62,8 +62,7 @@ pub(super) struct Pilot<'a> {
     pub(super) comparator_errors: Errors,
     /// The best known value of every channel.
     pub(super) values: Means,
-    /// The counts of exceeded thresholds of the paths of a smaller net, by octave; empty if the
-    /// estimator counts no strata.
+    /// The levels of the paths of a smaller net; empty if the estimator reads their sum alone.
     pub(super) levels: Vec<[LevelCounts; 3]>,
     /// The errors of paths by path bits, from [`FEWEST`] on; for a lattice, the only entry is its
     /// own.

@@ -575,8 +575,8 @@ record! {
     pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
     /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
     /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
-    /// each channel of each pixel from what it measures first. Only `adaptive-bayes`, `auto` and
-    /// `random-depth` count by strata; under all others `auto` is 1.
+    /// each channel of each pixel from what it measures first. Only the estimators `adaptive-bayes`,
+    /// `auto` and `random-depth` count by strata; for all others the number is 1.
     pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
     /// Half the width of the interval, in radiance, at which a channel of a pixel is done though
     /// queries are left; of the luminance where one run gives the colour. Without it, the default,
@@ -588,6 +588,11 @@ impl Counting {
     /// The window in which the phase register is prepared: the estimator's own, or else `window`.
     pub fn register_window(&self) -> Window {
         self.estimator.register_window(self.window)
+    }
+
+    /// True if the levels of paths may be read: by the estimator, or to count strata one by one.
+    pub fn reads_levels(&self) -> bool {
+        self.estimator.reads_levels() || self.may_count_strata()
     }
 
     /// True if strata of the comparator may be counted one by one.

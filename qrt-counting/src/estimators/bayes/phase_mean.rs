@@ -7,8 +7,10 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// `phase-mean`: measures the mean itself as a phase, in units of the standard deviation of the
 /// paths' colours.
 ///
-/// The run begins with 12 to 24 paths drawn at random. If their colours favour the mean phase, it
-/// goes on with the mean-phase circuit; if not, it counts, as `adaptive-bayes` without strata.
+/// The run begins with 12 to 24 paths drawn at random: with 12 if it has fewer than 240 queries, and
+/// with none if it has fewer than 60. If their colours favour the mean phase, it draws 4 % of its
+/// queries in all, and goes on with the mean-phase circuit. If not, it counts, as `adaptive-bayes`
+/// without strata.
 /// `auto` is the same, except that it then chooses the number of strata, too.
 ///
 /// The error of the mean phase is about 3.4 sigma over the queries, sigma the standard deviation of
@@ -17,7 +19,8 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// find light. Where few paths do, counting has less.
 ///
 /// The mean phase needs a device that knows the levels of its paths, [`Device::of_histogram`], and a
-/// comparator of at most 12 bits. On other devices the run counts.
+/// comparator of at most 12 bits. On other devices the run counts, and where noise keeps shots so short
+/// that they would be more than 4,096.
 ///
 /// The likelihood of the mean-phase circuit has one eigenphase and a visibility, both from the
 /// measured colours. The depth and the angle of each shot follow from the whole posterior.
@@ -231,7 +234,11 @@ mod tests {
         let mut device = Device::of_histogram(&many, Noise::NONE, &mut stream).unwrap();
         let phases = LevelPhases::new(1.0, 0.5, 12, 8).unwrap();
         let refused = device.mean_phase(phases, 1, 0.0);
-        assert_eq!(refused, Err(EstimatorError::LevelBits(13)));
+        let other = EstimatorError::OtherLevels {
+            device: 13,
+            phases: 12,
+        };
+        assert_eq!(refused, Err(other));
         let found = PhaseMean::new(&settings).unwrap().estimate(&mut device);
         let mut stream = Stream::new(5, 0, 0, 0);
         let mut device = Device::of_histogram(&many, Noise::NONE, &mut stream).unwrap();

@@ -16,8 +16,7 @@
 //! P(0) = (1 + Re(exp(-i b) <psi| U^(2k) |psi>)) / 2.
 //! ```
 //!
-//! The path index is measured, too: a sample of the colours, with a density of about
-//! `p (1 + y^2)`.
+//! The path index is measured, too: a sample of the colours that prefers those far from the reference.
 
 use super::Device;
 use crate::estimators::{EstimatorError, MAX_ITERATIONS, Noise, id_bits};
@@ -29,7 +28,7 @@ use qrt_circuit::quantum::LevelPhases;
 /// The outcome of a shot of the mean-phase circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MeanPhaseShot {
-    /// The bit that the ancilla reads.
+    /// The bit that the sign qubit reads.
     pub one: bool,
     /// The level of the measured path: the number of thresholds that its colour exceeds.
     pub level: u64,
@@ -93,7 +92,7 @@ impl<'a> Device<'a> {
         })
     }
 
-    /// Runs the mean-phase circuit once, with `iterations` iterates, and measures the ancilla at
+    /// Runs the mean-phase circuit once, with `iterations` iterates, and measures the sign qubit at
     /// `basis` radians and the path. It takes one query more than iterations.
     ///
     /// A state that noise has destroyed, or that is misread, reads any path and either bit.
@@ -108,7 +107,7 @@ impl<'a> Device<'a> {
     /// use qrt_counting::estimators::{Device, Noise};
     /// // All paths have one colour, 3/8 of the scale, which is the reference: no phase ever.
     /// let mut histogram = Histogram::new(3);
-    /// histogram.add_paths(3, 64);
+    /// histogram.add_all([3; 64]);
     /// let mut stream = Stream::new(1, 0, 0, 0);
     /// let mut device = Device::of_histogram(&histogram, Noise::NONE, &mut stream)?;
     /// let phases = LevelPhases::new(1.0, 0.375, 3, 12)?;
@@ -129,7 +128,10 @@ impl<'a> Device<'a> {
         let levels = self.levels()?.to_vec();
         let bits = self.comparator_bits().unwrap_or_default();
         if bits != phases.level_bits() {
-            return Err(EstimatorError::LevelBits(bits));
+            return Err(EstimatorError::OtherLevels {
+                device: bits,
+                phases: phases.level_bits(),
+            });
         }
         let signal = MeanSignal::new(&levels, phases);
         let paths: u64 = levels.iter().map(|(_, paths)| paths).sum();
@@ -174,7 +176,7 @@ fn nth_path(levels: &[(u64, u64)], mut path: u64) -> u64 {
     levels.last().map_or(0, |&(level, _)| level)
 }
 
-/// Draws the ancilla's bit and a group of paths, at `choice` of all probability.
+/// Draws the sign qubit's bit and a group of paths, at `choice` of all probability.
 fn drawn(state: &MeanState, basis: f64, choice: f64) -> (bool, usize) {
     let mut left = choice;
     let mut last = (false, 0);

@@ -189,7 +189,8 @@ impl Colours {
         let unseen = unseen.min(missed(reference, self.times));
         let deviation = (known + unseen).sqrt();
         let slope = ETA / deviation;
-        let spread = slope * slope * known;
+        // E[y^2], with colours that have been missed.
+        let square_of_y = ETA * ETA;
         let mut lengths = 0.0;
         for seen in &self.seen {
             lengths += seen.times / seen.density * (1.0 + slope * slope * square(seen)).sqrt();
@@ -202,8 +203,8 @@ impl Colours {
         Spread {
             deviation,
             slope,
-            gain: 2.0 * slope / (1.0 + spread),
-            visibility: (length * length / (1.0 + spread)).min(1.0),
+            gain: 2.0 * slope / (1.0 + square_of_y),
+            visibility: (length * length / (1.0 + square_of_y)).min(1.0),
         }
     }
 }

@@ -130,14 +130,14 @@ impl Grid {
         self.phases = (0..POINTS).map(|point| phase(tangent(point))).collect();
     }
 
-    /// The depth and the angle that are expected to sharpen the posterior most per query: its
-    /// standard deviation is `deviation`, and a shot takes one query more than iterates, of which
-    /// there are at most `most`.
+    /// The depth and the angle that are expected to sharpen the posterior most per query.
+    ///
+    /// The posterior's standard deviation is `deviation`. A shot takes one query more than iterates,
+    /// of which there are at most `most`; noise leaves about `coherent` of them intact.
     pub(super) fn choose(
         &self,
-        gain: f64,
-        deviation: f64,
-        most: u64,
+        (gain, deviation): (f64, f64),
+        (most, coherent): (u64, f64),
         visibility: impl Fn(u64) -> f64,
     ) -> Plan {
         let mut plan = Plan {
@@ -145,7 +145,8 @@ impl Grid {
             basis: FRAC_PI_2,
         };
         let coarsest = 0.5 * COARSEST / (gain * self.step);
-        let unit = (0.5 * REACH / (gain * deviation)).min(coarsest).round();
+        let unit = (0.5 * REACH / (gain * deviation)).min(coarsest);
+        let unit = unit.min(coherent / MULTIPLES as f64).round();
         let unit = (unit as u64).clamp(1, most);
         let turns = self.phases.iter();
         let turns: Vec<_> = turns

@@ -1,10 +1,10 @@
 //! Estimates a pixel's mean by the mean-phase circuit.
 //!
-//! Counting good indices has an error of about `sqrt(a (1 - a))` a query: it pays for the *scale* of
-//! the colours. The phase of the mean-phase circuit is proportional to the mean itself, in units of
+//! Counting good indices has an error of about `2.2 sqrt(a (1 - a))` over the queries: it pays for the
+//! *scale* of the colours. The phase of the mean-phase circuit is proportional to the mean itself, in units of
 //! the colours' standard deviation sigma ([`Device::mean_phase`]). With the slope
 //! `alpha = eta/sigma` it turns by `2 eta/((1 + eta^2) sigma)` a query and unit of the mean, and the
-//! error is about `sigma` a query.
+//! error is about `3.4 sigma` over the queries.
 //!
 //! A run begins with paths drawn at random, which show colours and roughly their mean. Then each
 //! shot
@@ -16,13 +16,13 @@
 //!   most per query: see [`Grid::choose`].
 //!
 //! Kothari & O'Donnell, *Mean estimation when you have the source code* (2022), showed that an error
-//! of sigma a query is possible. The choice of slope and reference before every shot, from the
+//! in proportion to sigma over the queries is possible. The choice of slope and reference before every shot, from the
 //! colours of the measured paths, is this crate's own.
 
 mod colours;
 mod grid;
 
-use super::{Goal, choice};
+use super::{Goal, choice, depth};
 use crate::estimators::device::Usage;
 use crate::estimators::normal::normal_quantile;
 use crate::estimators::{Device, Estimate, EstimatorError, id_bits};
@@ -44,12 +44,25 @@ const DEEPEST: u64 = (1 << 40) - 1;
 const FINER: u32 = 12;
 /// The fraction of queries that draw paths at random.
 const PILOT: f64 = 0.04;
+/// The most such paths of a run that is asked for an error.
+const ASKED: u64 = 48;
+/// The most shots of a device whose noise limits their depth.
+const SHOTS: f64 = 4096.0;
 /// The factor by which the mean of these may be less certain than it seems.
 const DOUBT: f64 = 1.3;
 /// The smallest standard deviation at which a run goes on.
 const KNOWN: f64 = 1e-13;
+/// A shot whose signal is smaller tells nothing.
+const BLIND: f64 = 1e-6;
 /// The part of a signal that the model explains.
 const EXPLAINED: f64 = 0.95;
+
+/// True if the device's noise leaves shots of the mean-phase circuit deep enough for these queries.
+///
+/// Shots that noise keeps short are as many as the queries, and counting makes them together.
+pub(super) fn is_coherent(goal: &Goal) -> bool {
+    goal.queries as f64 <= SHOTS * depth::useful(&goal.noise)
+}
 
 /// Checks that the device runs the mean-phase circuit.
 pub(super) fn check(device: &Device<'_>) -> Result<u32, EstimatorError> {
@@ -125,7 +138,11 @@ pub(super) fn estimate(
     mut left: u64,
 ) -> Result<Estimate, EstimatorError> {
     let bits = pilot.bits;
-    let paths = ((PILOT * goal.queries as f64) as u64).max(FEWEST);
+    let mut paths = ((PILOT * goal.queries as f64) as u64).max(FEWEST);
+    if goal.error.is_some() {
+        // A run that stops early may be much shorter than it is allowed to be.
+        paths = paths.min(ASKED);
+    }
     let more = paths.saturating_sub(pilot.paths).min(left);
     device.paths(more);
     left -= more;
@@ -147,8 +164,12 @@ pub(super) fn estimate(
         grid.aim(spread.gain, mean);
         let intact = |k: u64| goal.noise.intact(k + 1) * read;
         let visibility = |k: u64| spread.visibility * EXPLAINED * intact(k);
+        if visibility(1) < BLIND {
+            break;
+        }
         let most = (left - 1).min(DEEPEST);
-        let plan = grid.choose(spread.gain, deviation, most, visibility);
+        let coherent = depth::useful(&goal.noise);
+        let plan = grid.choose((spread.gain, deviation), (most, coherent), visibility);
         let k = plan.iterations;
         let phase_bits = k.ilog2() + FINER;
         let phases = LevelPhases::new(spread.slope, mean, bits, phase_bits);
