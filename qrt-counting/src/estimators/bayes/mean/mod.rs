@@ -59,7 +59,8 @@ const EXPLAINED: f64 = 0.95;
 
 /// True if the device's noise leaves shots of the mean-phase circuit deep enough for these queries.
 ///
-/// Shots that noise keeps short are as many as the queries, and counting makes them together.
+/// Otherwise the number of short shots would grow with the queries. Counting makes such shots
+/// together.
 pub(super) fn is_coherent(goal: &Goal) -> bool {
     goal.queries as f64 <= SHOTS * depth::useful(&goal.noise)
 }
@@ -95,7 +96,7 @@ impl Pilot {
     /// Number of paths to draw next in a run of `queries` queries; none if there are enough to decide
     /// against the mean phase.
     ///
-    /// A run decides on [`FEWEST`] paths, and again on twice as many. One of few queries decides once,
+    /// A run decides on [`FEWEST`] paths, and again on twice that number. One of few queries decides once,
     /// or counts at once.
     pub(super) fn next(&self, queries: u64) -> Option<u64> {
         let most = if queries < ONCE {
