@@ -83,8 +83,7 @@ impl fmt::Display for QuantumError {
             ),
             Self::LevelBits => write!(
                 f,
-                "phases of levels have 2 to 51 bits, and levels at most {}",
-                MAX_LEVEL_BITS
+                "phases of levels have 2 to 51 bits, and levels at most {MAX_LEVEL_BITS}"
             ),
         }
     }
