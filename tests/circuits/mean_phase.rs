@@ -3,6 +3,7 @@
 
 use super::openqasm::Circuit;
 use super::paths::{oracle, paths};
+use super::the_counting_circuit::WALL;
 use crate::common::scene::written;
 use qrt::circuit::export::{Export, ExportFormat};
 use qrt::circuit::quantum::{
@@ -13,24 +14,6 @@ use qrt::counting::{Histogram, mean_phase_probabilities};
 use qrt::machines::statevector::{Sparse, StateVector};
 use qrt::runtime::path_machines::OracleMachine;
 use std::convert::Infallible;
-
-/// A wall of two stripes, lit by a lamp behind the camera: 2^4 paths of two rays.
-const WALL: &str = "\
-name: wall
-camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
-film: { width: 2, height: 2 }
-materials:
-  wall: { lambertian: { albedo: [0.9, 0.6, 0.3] } }
-  lamp: { emitter: { radiance: [2, 3, 4] } }
-geometry:
-  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
-  - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
-sampling:
-  path_bits: 4
-  depths: [{ bits: [3, 3] }, { bits: [3, 3] }]
-precision: { fraction: 6 }
-comparator: { bits: 2 }
-";
 
 const SEED: u64 = 5;
 const PIXELS: [[u32; 2]; 2] = [[0, 0], [1, 1]];

@@ -15,7 +15,7 @@ use qrt::scene::valid::ValidScene;
 
 /// A coloured wall, and a lamp behind the camera that lights it: 2 x 2 pixels of 2^4 paths of two
 /// rays.
-const WALL: &str = "\
+pub(crate) const WALL: &str = "\
 name: wall
 camera: { perspective: { eye: [0.2, 0.1, 2], target: [0, 0, 0], up: [0, 1, 0], vfov: 60 } }
 film: { width: 2, height: 2 }
