@@ -83,7 +83,7 @@ pub struct Estimate {
     /// more than one.
     pub candidates: Option<u32>,
     /// Number of strata of the comparator that were counted on their own; 1 if the whole was
-    /// counted at once.
+    /// counted at once, or the mean was measured as a phase.
     pub strata: u32,
 }
 

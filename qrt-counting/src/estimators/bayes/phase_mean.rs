@@ -20,7 +20,7 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 ///
 /// The mean phase needs a device that knows the levels of its paths, [`Device::of_histogram`], and a
 /// comparator of at most 12 bits. On other devices the run counts, and where noise keeps shots so short
-/// that they would be more than 4,096.
+/// that they would be more than some 64: the model of one eigenphase holds for no more.
 ///
 /// The likelihood of the mean-phase circuit has one eigenphase and a visibility, both from the
 /// measured colours. The depth and the angle of each shot follow from the whole posterior.
@@ -227,6 +227,78 @@ mod tests {
         let found = errors(&estimator, &noisy, &histogram, noise);
         assert!(found.covered > 0.93, "{}", found.covered);
         assert!(found.rms < 40.0, "{}", found.rms);
+    }
+
+    /// Single paths, no comparator, black, white and mixed pixels, all budgets, and noise up to complete
+    /// noise: runs end within their queries and in [0, 1].
+    #[test]
+    fn extremes_end_within_their_queries() {
+        let pixels: [(u32, &[u64]); 7] = [
+            (0, &[0]),
+            (0, &[1, 0]),
+            (4, &[16]),
+            (4, &[0, 0, 0]),
+            (12, &[4096, 4096, 4095]),
+            (12, &[1; 100]),
+            (12, &[0, 1, 4096, 7, 2000]),
+        ];
+        let noises = [
+            (0.0, 0.0),
+            (1e-3, 0.0),
+            (0.3, 0.0),
+            (1.0, 0.0),
+            (0.0, 0.5),
+            (0.0, 1.0),
+        ];
+        for (bits, levels) in pixels {
+            let mut histogram = Histogram::new(bits);
+            histogram.add_all(levels.iter().copied());
+            for (depolarising, readout) in noises {
+                let noise = Noise {
+                    depolarising,
+                    readout,
+                };
+                for queries in [1, 2, 12, 13, 59, 60, 300, 5000, 1 << 30, 1 << 50] {
+                    if noise != Noise::NONE && queries > 5000 {
+                        continue;
+                    }
+                    let settings = Settings {
+                        queries,
+                        known_noise: noise,
+                        ..settings(8)
+                    };
+                    let estimator = PhaseMean::auto(&settings).unwrap();
+                    let mut stream = Stream::new(queries, bits, 0, 0);
+                    let mut device = Device::of_histogram(&histogram, noise, &mut stream).unwrap();
+                    let found = estimator.estimate(&mut device).unwrap();
+                    let (low, high) = found.interval;
+                    assert!(found.queries <= queries, "{levels:?} {noise} {queries}");
+                    assert!(0.0 <= low && low <= found.amplitude && found.amplitude <= high);
+                    assert!(high <= 1.0 && found.depth <= queries);
+                }
+            }
+        }
+    }
+
+    /// With noise the error falls as the root of the queries, and does not stay.
+    #[test]
+    fn noise_slows_the_error_and_does_not_hold_it() {
+        let noise = Noise {
+            depolarising: 0.02,
+            readout: 0.0,
+        };
+        let histogram = pixel(100, 40);
+        let [few, many] = [10, 16].map(|phase_bits| {
+            let noisy = Settings {
+                known_noise: noise,
+                ..settings(phase_bits)
+            };
+            let estimator = PhaseMean::new(&noisy).unwrap();
+            let found = errors(&estimator, &noisy, &histogram, noise);
+            assert!(found.covered > 0.93, "{phase_bits}: {}", found.covered);
+            found.rms / noisy.queries as f64
+        });
+        assert!(many < 0.3 * few, "{few} {many}");
     }
 
     #[test]

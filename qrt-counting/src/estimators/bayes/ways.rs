@@ -29,7 +29,7 @@ pub(super) fn estimate(
     }
     let mut whole = Run::new(goal, depths, device.total(), Prior::Even);
     let mut left = goal.queries;
-    if goal.mean_phase && mean::is_coherent(goal) && mean::check(device).is_ok() {
+    if goal.mean_phase && mean::is_open(goal, device) {
         let mut pilot = Pilot::new(device)?;
         while let Some(paths) = pilot.next(goal.queries) {
             let paths = paths.min(left);

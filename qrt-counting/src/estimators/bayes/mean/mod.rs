@@ -46,23 +46,32 @@ const FINER: u32 = 12;
 const PILOT: f64 = 0.04;
 /// The most such paths of a run that is asked for an error.
 const ASKED: u64 = 48;
-/// The most shots of a device whose noise limits their depth.
-const SHOTS: f64 = 4096.0;
+/// The most queries of a run, over the depth that noise leaves intact: the likelihood has one eigenphase,
+/// and what it leaves out would outweigh the outcomes of more shots of one depth.
+const SHOTS: f64 = 64.0;
 /// The factor by which the mean of these may be less certain than it seems.
 const DOUBT: f64 = 1.3;
 /// The smallest standard deviation at which a run goes on.
 const KNOWN: f64 = 1e-13;
+/// The smallest probability of a right reading with which the circuit is run.
+const READ: f64 = 0.1;
 /// A shot whose signal is smaller tells nothing.
 const BLIND: f64 = 1e-6;
 /// The part of a signal that the model explains.
 const EXPLAINED: f64 = 0.95;
 
-/// True if the device's noise leaves shots of the mean-phase circuit deep enough for these queries.
+/// True if the device runs the mean-phase circuit, and its noise leaves shots that are deep enough for
+/// these queries and often read rightly.
 ///
-/// Otherwise the number of short shots would grow with the queries. Counting makes such shots
-/// together.
-pub(super) fn is_coherent(goal: &Goal) -> bool {
-    goal.queries as f64 <= SHOTS * depth::useful(&goal.noise)
+/// Otherwise the number of shots would grow with the queries. Counting makes such shots together.
+pub(super) fn is_open(goal: &Goal, device: &Device<'_>) -> bool {
+    let deep = goal.queries as f64 <= SHOTS * depth::useful(&goal.noise);
+    check(device).is_ok_and(|bits| deep && read_rightly(goal, device, bits) > READ)
+}
+
+/// The probability that the path index and the sign are read rightly.
+fn read_rightly(goal: &Goal, device: &Device<'_>, bits: u32) -> f64 {
+    goal.noise.read_rightly(id_bits(device.total() >> bits) + 1)
 }
 
 /// Checks that the device runs the mean-phase circuit.
@@ -147,8 +156,7 @@ pub(super) fn estimate(
     let more = paths.saturating_sub(pilot.paths).min(left);
     device.paths(more);
     left -= more;
-    // The bits of the path index and the sign.
-    let read = goal.noise.read_rightly(id_bits(device.total() >> bits) + 1);
+    let read = read_rightly(goal, device, bits);
     let quantile = normal_quantile(0.5 * (1.0 - goal.confidence));
     let mut colours = pilot.colours(device);
     let mean = colours.mean();
