@@ -32,9 +32,9 @@ pub enum PhysicalError {
     /// The scene has no circuit.
     #[error("{0}")]
     Oracle(OracleError),
-    /// The scene's estimator runs no iterates of G.
+    /// The scene's estimator runs no iterates of G, or other circuits as well.
     #[error(
-        "the estimator `{0}` does not iterate G, so that nothing is known of what it would run: \
+        "the estimator `{0}` does not only iterate G, so that nothing is known of what it would run: \
          choose another `counting.estimator`"
     )]
     Estimator(Estimator),
@@ -191,7 +191,9 @@ impl<'a> Run<'a> {
             Estimator::Exact
             | Estimator::MonteCarlo
             | Estimator::Qcoin
-            | Estimator::AbramsWilliams => return Err(PhysicalError::Estimator(estimator)),
+            | Estimator::AbramsWilliams
+            | Estimator::PhaseMean
+            | Estimator::Auto => return Err(PhysicalError::Estimator(estimator)),
             Estimator::Paper
             | Estimator::PosteriorMean
             | Estimator::Sine
@@ -201,9 +203,7 @@ impl<'a> Run<'a> {
             | Estimator::Miqae
             | Estimator::Chebyshev
             | Estimator::RandomDepth
-            | Estimator::AdaptiveBayes
-            | Estimator::PhaseMean
-            | Estimator::Auto => {}
+            | Estimator::AdaptiveBayes => {}
         }
         let settings = Settings::from_counting(&counting)?;
         let queries = match planned {

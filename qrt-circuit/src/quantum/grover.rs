@@ -76,7 +76,7 @@ impl<'a> GroverIterate<'a> {
     }
 
     /// Emits `H O_0 H`: the reflection `2 psi psi^T - 1` of the uniform state psi, without the oracle.
-    fn diffuse<E>(
+    pub(super) fn diffuse<E>(
         &self,
         control: Option<Qubit>,
         sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
@@ -85,14 +85,6 @@ impl<'a> GroverIterate<'a> {
         ids.iter().try_for_each(|id| sink(H(*id)))?;
         self.reflect(control, sink)?;
         ids.iter().try_for_each(|id| sink(H(*id)))
-    }
-
-    /// Emits the reflection `2 psi psi^T - 1` of the uniform state psi alone.
-    pub(super) fn reflect_mean<E>(
-        &self,
-        sink: &mut impl FnMut(QuantumGate<'_>) -> Result<(), E>,
-    ) -> Result<(), E> {
-        self.diffuse(None, sink)
     }
 
     /// Number of gates of the reflection alone.

@@ -135,7 +135,7 @@ impl<'a> MeanPhaseCircuit<'a> {
             self.call(true, sink)?;
         }
         for left in (0..self.iterations).rev() {
-            self.iterate.reflect_mean(sink)?;
+            self.iterate.diffuse(None, sink)?;
             self.call(left == 0, sink)?;
         }
         let sign = [self.sign()];
