@@ -233,6 +233,20 @@ impl Contents {
                     self.set(*target, column.get(address).copied().unwrap_or(0));
                 }
             }
+            Op::Encode {
+                bits,
+                entries,
+                targets,
+                ..
+            } => {
+                let held = bits.iter().zip(entries.iter());
+                let held = held.filter(|(bit, _)| self.bit(**bit));
+                let mut found = held.map(|(_, entry)| *entry).collect::<Vec<_>>();
+                found.resize(targets.len(), 0);
+                for (target, entry) in targets.iter().zip(found) {
+                    self.set(*target, entry.cast_signed());
+                }
+            }
             Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
                 self.in_place(op, false);
             }

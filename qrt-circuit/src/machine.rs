@@ -400,6 +400,26 @@ pub trait Machine {
             },
         )
     }
+    /// [`Op::Encode`]
+    fn encode<const N: usize>(
+        &mut self,
+        targets: [&Declaration; N],
+        bits: &[Bit<&Self::Register>],
+        entries: &[u64],
+    ) -> [Self::Register; N] {
+        compute_all(
+            self,
+            Op::Encode {
+                bits: bits
+                    .iter()
+                    .map(|bit| bit.map_register(|register| register))
+                    .collect(),
+                entries: entries.into(),
+                targets: targets.into(),
+                scratch: &GARBAGE,
+            },
+        )
+    }
 
     /// [`Op::XorInto`]
     fn xor_into(

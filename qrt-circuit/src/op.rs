@@ -566,6 +566,21 @@ operations! {
         garbage scratch: T,
     }
     {
+        /// `t_k = entries[i_k] mod 2^w_k`, where `i_k` is the place of the k-th of `bits` that holds; 0
+        /// if fewer hold. A priority encoder with several outputs. The top bit of each target is 1 in
+        /// all entries, so it tells whether a bit was found. A bit that holds after the last target is
+        /// taken is passed over.
+        Encode = "encode"
+        /// The bits, in the order in which they are found.
+        reads bits: Box<[Bit<R>]>,
+        /// The entry of each bit.
+        constant entries: Arc<[u64]>,
+        /// The targets, all of one width.
+        targets targets: Box<[T]>,
+        /// The register of the garbage.
+        garbage scratch: T,
+    }
+    {
         /// `t ^= a mod 2^w`, where `when` holds. In place, and its own inverse.
         XorInto = "xor_into"
         /// The number that is added over GF(2).

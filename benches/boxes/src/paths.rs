@@ -161,6 +161,9 @@ impl Arith for Path<'_> {
     fn is(&mut self, a: u32, value: u32) -> bool {
         a == value
     }
+    fn same(&mut self, a: u32, b: u32) -> bool {
+        a == b
+    }
     fn below(&mut self, a: u32, value: u32) -> bool {
         a < value
     }

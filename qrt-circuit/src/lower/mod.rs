@@ -25,6 +25,7 @@ mod adder;
 mod choose;
 mod cost;
 mod divide;
+mod encode;
 mod figures;
 mod ghosts;
 mod multiply;
@@ -297,6 +298,16 @@ impl Lowering {
                     Style::OutOfPlace => self.table(address, columns, *low, &targets),
                     Style::InPlace => self.walk(address, columns, &targets),
                 }
+            }
+            Op::Encode {
+                bits,
+                entries,
+                targets,
+                ..
+            } => {
+                let targets: Vec<_> = targets.iter().map(|id| self.register(*id)).collect();
+                let bits: Vec<_> = bits.iter().map(|bit| self.bit(*bit)).collect();
+                self.encode(&bits, entries, &targets);
             }
             Op::XorInto { a, when, target } => {
                 let target = self.register(*target);

@@ -169,6 +169,12 @@ impl Arith for Builder<'_> {
         let value = self.code(value);
         self.test(a, |index| index < value)
     }
+    fn same(&mut self, a: Index, b: Index) -> BoolValue {
+        self.are_equal(a, b)
+    }
+    fn encode(&mut self, marked: &[(BoolValue, u32)], most: usize) -> Vec<(BoolValue, Index)> {
+        self.encoded(marked, most)
+    }
     fn rows<const K: usize>(&mut self, table: &[[f64; K]], row: Index) -> [RealValue; K] {
         let mut columns = [RealValue::constant(0.0); K];
         for (k, column) in columns.iter_mut().enumerate() {
@@ -271,6 +277,9 @@ impl Arith for Builder<'_> {
             TracerPart::Plane(number) => self.begin(StageName::Plane(number as u32), None),
             TracerPart::Primitive(number) => self.begin(StageName::Primitive(number as u32), None),
             TracerPart::Ball(number) => self.begin(StageName::Sphere(number as u32), None),
+            TracerPart::Mesh => self.begin(StageName::Mesh, None),
+            TracerPart::Edges(number) => self.begin(StageName::Edges(number as u32), None),
+            TracerPart::Slot(number) => self.begin(StageName::Slot(number as u32), None),
             TracerPart::Sky(k) => self.begin(StageName::Sky, depth(k)),
             TracerPart::Side(k) => self.begin(StageName::Side, depth(k)),
             TracerPart::Sample => self.begin(StageName::Sample, None),

@@ -2,8 +2,8 @@
 
 use super::table::joined;
 use super::value::{BoolValue, Choice, Index, RealValue, Tabulated};
-use super::{Builder, MAX_ADDRESS};
-use qrt_circuit::{Op, Operand, Type, Word};
+use super::{Builder, GARBAGE, MAX_ADDRESS};
+use qrt_circuit::{Bit, Op, Operand, Type, Word};
 use std::rc::Rc;
 
 /// Number of bits that hold every integer below `bound`.
@@ -135,6 +135,78 @@ impl Builder<'_> {
             self.choices[node as usize].bound = bound;
         }
         index
+    }
+
+    /// `a == b`
+    pub(super) fn are_equal(&mut self, a: Index, b: Index) -> BoolValue {
+        let (a, b) = match (a, b) {
+            (Index::Constant(value), other) | (other, Index::Constant(value)) => {
+                return self.test(other, |index| index == value);
+            }
+            nodes => nodes,
+        };
+        let words = [a, b].map(|index| self.choice_operand(index));
+        let [Operand::Word(a), Operand::Word(b)] = words else {
+            return BoolValue::Constant(false);
+        };
+        let mut bits = [a, b].map(|word| Self::bits(word).collect::<Vec<_>>());
+        bits.sort_by_key(Vec::len);
+        let [short, long] = bits;
+        let mut equal = BoolValue::Constant(true);
+        for (place, &bit) in long.iter().enumerate().rev() {
+            let bit = self.truth_of(bit);
+            let differ = match short.get(place) {
+                Some(&other) => {
+                    let other = self.truth_of(other);
+                    self.differ(bit, other)
+                }
+                None => bit,
+            };
+            equal = self.both(equal, differ.negated());
+        }
+        equal
+    }
+
+    /// The first `most` of the marked integers whose truth value holds, and whether there is one.
+    pub(super) fn encoded(
+        &mut self,
+        marked: &[(BoolValue, u32)],
+        most: usize,
+    ) -> Vec<(BoolValue, Index)> {
+        let may_hold = |(holds, _): &&(BoolValue, u32)| *holds != BoolValue::Constant(false);
+        let marked: Vec<(BoolValue, u32)> = marked.iter().filter(may_hold).copied().collect();
+        let none = (BoolValue::Constant(false), Index::Constant(0));
+        let mut all = vec![none; most];
+        let count = most.min(marked.len());
+        let greatest = marked.iter().map(|(_, value)| *value).max().unwrap_or(0);
+        if count == 0 {
+            return all;
+        }
+        // No truth value here is the constant true: a line that meets a face on all paths would be a
+        // table of no bits.
+        let width = bits_below(greatest + 1).max(1);
+        let bits = marked.iter().map(|(holds, _)| self.bit(*holds)).collect();
+        let entries = marked
+            .iter()
+            .map(|(_, value)| 1 << width | u64::from(*value));
+        let targets = self.emit(Op::Encode {
+            bits,
+            entries: entries.collect(),
+            targets: vec![(Type::UInt, width + 1); count].into(),
+            scratch: GARBAGE,
+        });
+        for (target, (found, index)) in targets.into_iter().zip(&mut all) {
+            *found = self.truth_of(Bit {
+                register: target,
+                index: width,
+                inverted: false,
+            });
+            *index = self.choice_of(Self::whole(target, width, false));
+            if let Index::Node(node) = *index {
+                self.choices[node as usize].bound = greatest + 1;
+            }
+        }
+        all
     }
 
     /// The truth value `holds(a)`.

@@ -43,7 +43,7 @@ impl Builder<'_> {
         };
         let width = (bits_above(most) + shift).clamp(1, MAX_BITS);
         let fraction_type = Type::UFixed { fraction: shift };
-        let style = self.target.strategy.style(Garbage::Quotients);
+        let style = self.style(Garbage::Quotients);
         let results = self.emit(Op::Divide {
             a,
             b,

@@ -89,6 +89,12 @@ pub enum StageName {
     Primitive(u32),
     /// One sphere (by its face's number), within a search.
     Sphere(u32),
+    /// All meshes whose edges are tested, within a search.
+    Mesh,
+    /// Edges of meshes (by the number of their group), within a search.
+    Edges(u32),
+    /// The plane of one face that a ray's line meets (by its place among these), within a search.
+    Slot(u32),
     /// The light of the sky at the end of a ray.
     Sky,
     /// The side on which a ray meets a surface.
@@ -128,6 +134,9 @@ impl StageName {
             Self::Plane(_) => "plane",
             Self::Primitive(_) => "primitive",
             Self::Sphere(_) => "sphere",
+            Self::Mesh => "mesh",
+            Self::Edges(_) => "edges",
+            Self::Slot(_) => "slot",
             Self::Sky => "sky",
             Self::Component(axis) => ["x", "y", "z"].get(axis as usize).unwrap_or(&"component"),
             Self::Oracle => "oracle",
@@ -158,6 +167,8 @@ impl fmt::Display for StageName {
             Self::Plane(number)
             | Self::Primitive(number)
             | Self::Sphere(number)
+            | Self::Edges(number)
+            | Self::Slot(number)
             | Self::Body(number) => write!(f, " {number}"),
             _ => Ok(()),
         }
@@ -175,7 +186,7 @@ pub struct Label {
 
 impl Label {
     /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
-    const PLAIN: [StageName; 15] = [
+    const PLAIN: [StageName; 16] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -191,6 +202,7 @@ impl Label {
         StageName::Predicate,
         StageName::Sky,
         StageName::LevelPhase,
+        StageName::Mesh,
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.
@@ -209,6 +221,8 @@ impl Label {
                 0xfd => StageName::Component(number),
                 0xfc => StageName::Body(number),
                 0xfb => StageName::Sphere(number),
+                0xfa => StageName::Edges(number),
+                0xf9 => StageName::Slot(number),
                 kind => plain(kind).unwrap_or(StageName::Oracle),
             },
             depth: depth.checked_sub(1),
@@ -224,6 +238,8 @@ impl Label {
             StageName::Component(number) => (0xfd, number),
             StageName::Body(number) => (0xfc, number),
             StageName::Sphere(number) => (0xfb, number),
+            StageName::Edges(number) => (0xfa, number),
+            StageName::Slot(number) => (0xf9, number),
             plain => {
                 let place = Self::PLAIN.iter().position(|&known| known == plain);
                 (place.unwrap_or(0) as u64, 0)
@@ -320,6 +336,8 @@ mod tests {
             StageName::Component(2),
             StageName::Body(7),
             StageName::Sphere(484),
+            StageName::Edges(2_048),
+            StageName::Slot(7),
             StageName::Sky,
         ];
         for stage in Label::PLAIN.into_iter().chain(numbered) {

@@ -28,6 +28,7 @@ mod divide;
 mod draft;
 mod function;
 mod given;
+mod groups;
 mod held;
 mod known;
 mod label;
@@ -54,7 +55,7 @@ use crate::tracer::{Coordinate, Segment, WideValue};
 use draft::Draft;
 use names::NamedValue;
 use qrt_circuit::lower::QuickMap;
-use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Type, Word};
+use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Style, Type, Word};
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::syntax::{Circuit, What};
 use std::collections::HashMap;
@@ -331,6 +332,18 @@ impl<'a> Builder<'a> {
     /// True if a value computed in `block` is read from its register, false if it is recomputed.
     fn is_at_hand(&self, block: BlockId) -> bool {
         !self.target.strategy.recomputes() || self.open.contains(&block)
+    }
+
+    /// The style of an operation with this garbage. In groups of edges and in slots it is never in place: the
+    /// scope of their block undoes the garbage, and products of edges share their sums.
+    fn style(&self, garbage: Garbage) -> Style {
+        let stage = Label::from_block(&self.blocks[self.block().index()]).stage;
+        let is_short = matches!(stage, StageName::Edges(_) | StageName::Slot(_));
+        if is_short && !self.target.strategy.recomputes() {
+            Style::OutOfPlace
+        } else {
+            self.target.strategy.style(garbage)
+        }
     }
 
     /// True if a register that a table filled is read, false if the table fills another register.

@@ -1,17 +1,18 @@
 //! Passes from the builder's recording to a program. They decide which operations are kept, in which order
 //! they run, and when they are undone.
 //!
-//! 1. [`needed`]: removes operations that nothing needs.
-//! 2. [`merge_tables`]: merges tables of one address into one table of several columns. The columns share
+//! 1. [`groups::separate`]: makes groups of edges that are undone at their ends leave little.
+//! 2. [`needed`]: removes operations that nothing needs.
+//! 3. [`merge_tables`]: merges tables of one address into one table of several columns. The columns share
 //!    the selection of the row, which is the greater part of a table's Toffolis.
-//! 3. [`share_multiples`]: computes products of one number with several constants from shared sums.
-//! 4. [`schedule`]: orders the instructions. Operations run once and their results stay, except in scopes:
+//! 4. [`share_multiples`]: computes products of one number with several constants from shared sums.
+//! 5. [`schedule`]: orders the instructions. Operations run once and their results stay, except in scopes:
 //!    a scope copies the results that are read outside it and then runs backwards. If qubits cost more than
 //!    gates, [`super::recompute`] orders the instructions.
 
 use super::draft::{Draft, Renamed};
 use super::known::{Known, locked};
-use super::{Label, Passes, PixelWord, Recorded, StageName, Strategy, recompute};
+use super::{Label, Passes, PixelWord, Recorded, Scope, StageName, Strategy, groups, recompute};
 use qrt_circuit::lower::{self, OpFigures, QuickMap};
 use qrt_circuit::{Bit, BlockId, Instruction, Multiples, Op, Program, RegisterId, Style, Word};
 use std::collections::HashMap;
@@ -171,9 +172,9 @@ fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known
 }
 
 /// The largest number of products that are computed together, and the same for products with constants of
-/// spheres: there are many, and they are a third of a search.
+/// spheres and edges: there are many, and they are a third of a search.
 const TOGETHER: usize = 12;
-const OF_SPHERES: usize = 48;
+const OF_MANY: usize = 48;
 
 /// Computes products of one number with constants from shared sums, where that is cheaper.
 fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {
@@ -193,16 +194,16 @@ fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) 
     }
     let mut groups: Vec<((Word, _), Vec<usize>)> = groups.into_iter().collect();
     groups.sort_by_key(|(_, places)| places[0]);
-    let of_sphere = |place: &usize| {
+    let of_many = |place: &usize| {
         let (_, block) = &draft.ops[*place];
         matches!(
             Label::from_block(&draft.blocks[block.index()]).stage,
-            StageName::Sphere(_)
+            StageName::Sphere(_) | StageName::Edges(_)
         )
     };
     let chunks = groups.iter().flat_map(|(_, places)| {
-        let most = if places.iter().any(of_sphere) {
-            OF_SPHERES
+        let most = if places.iter().any(of_many) {
+            OF_MANY
         } else {
             TOGETHER
         };
@@ -513,6 +514,9 @@ pub(crate) fn assemble(
     locked(known)
         .of_recorded
         .resize(draft.registers.len(), None);
+    if strategy.undoes(Scope::Plane) {
+        groups::separate(&mut draft);
+    }
     if passes.needed {
         let mut kept = roots.to_vec();
         kept.extend(recorded.records);

@@ -71,7 +71,7 @@ impl Builder<'_> {
         let range = hull([ends[0], ends[1], ends[0], ends[1]]);
         let a = self.word_of(node);
         let RegisterShape { ty, width, signed } = self.shape(range);
-        let style = self.target.strategy.style(Garbage::Products);
+        let style = self.style(Garbage::Products);
         let target = self.emit(Op::Scale {
             a,
             factor: odd,
@@ -161,7 +161,7 @@ impl Builder<'_> {
             let order = |word: Word| (word.width, word.register, word.offset, word.shift);
             let (rows, other) = if order(x) <= order(y) { (x, y) } else { (y, x) };
             let RegisterShape { ty, width, signed } = self.shape(range);
-            let style = self.target.strategy.style(Garbage::Products);
+            let style = self.style(Garbage::Products);
             let target = self.emit(Op::Multiply {
                 a: rows,
                 b: other,
@@ -183,7 +183,7 @@ impl Builder<'_> {
 
     pub(super) fn square(&mut self, a: Word, drop: u32, range: [i64; 2]) -> RealValue {
         let RegisterShape { ty, width, signed } = self.shape(range);
-        let style = self.target.strategy.style(Garbage::Products);
+        let style = self.style(Garbage::Products);
         let target = self.emit(Op::Square {
             a,
             drop,

@@ -82,7 +82,7 @@ impl Builder<'_> {
     fn integer_root(&mut self, word: Word, range: [i64; 2]) -> RealValue {
         let range = range.map(|end| end.max(0).cast_unsigned().isqrt().cast_signed());
         let RegisterShape { ty, width, signed } = self.shape(range);
-        let style = self.target.strategy.style(Garbage::Quotients);
+        let style = self.style(Garbage::Quotients);
         let a = Word {
             signed: false,
             ..word

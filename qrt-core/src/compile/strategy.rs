@@ -12,9 +12,9 @@ use qrt_scene::{Recomputed, UNCOMPUTE_PARTS, Uncompute};
 /// Parts of the tracer whose work can be undone at their ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scope {
-    /// A plane and the faces on it, within a search.
+    /// A plane and the faces on it, a sphere, or some edges of a mesh, within a search.
     Plane,
-    /// A convex body, within a search.
+    /// A convex body, or all meshes, within a search.
     Body,
     /// A search for an intersection.
     Search,
@@ -46,8 +46,12 @@ impl Scope {
     /// The scope of a stage, if it has one.
     fn from_stage(stage: StageName) -> Option<Self> {
         Some(match stage {
-            StageName::Plane(_) | StageName::Primitive(_) | StageName::Sphere(_) => Self::Plane,
-            StageName::Body(_) => Self::Body,
+            StageName::Plane(_)
+            | StageName::Primitive(_)
+            | StageName::Sphere(_)
+            | StageName::Edges(_)
+            | StageName::Slot(_) => Self::Plane,
+            StageName::Body(_) | StageName::Mesh => Self::Body,
             StageName::FindIntersection | StageName::Shadow => Self::Search,
             StageName::GenerateRay | StageName::SampleLight => Self::Ray,
             StageName::Sample => Self::Sample,

@@ -207,7 +207,7 @@ impl Builder<'_> {
     ) -> RegisterId {
         let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
         let address: Box<[Bit]> = address.into();
-        let style = self.target.strategy.style(Garbage::Tables);
+        let style = self.style(Garbage::Tables);
         self.emit(Op::Table {
             low: 0,
             style,

@@ -24,6 +24,12 @@ pub enum TracerPart {
     Primitive(usize),
     /// One sphere (by its face's number), within an intersection.
     Ball(usize),
+    /// All meshes whose edges are tested, within an intersection.
+    Mesh,
+    /// Edges of meshes (by the number of their group), within an intersection.
+    Edges(usize),
+    /// The plane of one face that the ray's line meets (by its place among these), within an intersection.
+    Slot(usize),
     /// The light of the sky, at the end of the ray of this depth.
     Sky(usize),
     /// The light that the vertex at the end of the ray of this depth emits towards the camera.
@@ -271,6 +277,30 @@ pub trait Arith: Sized {
     fn select_index(&mut self, c: Self::Bool, a: Self::Index, b: Self::Index) -> Self::Index;
     /// `a == value`
     fn is(&mut self, a: Self::Index, value: u32) -> Self::Bool;
+    /// `a == b`
+    fn same(&mut self, a: Self::Index, b: Self::Index) -> Self::Bool;
+    /// The first `most` of the marked integers whose truth value holds, in their order. A truth value tells
+    /// for each whether it was found; if not, the integer is 0. Those that hold after these are ignored.
+    fn encode(
+        &mut self,
+        marked: &[(Self::Bool, u32)],
+        most: usize,
+    ) -> Vec<(Self::Bool, Self::Index)> {
+        let mut rest: Vec<Self::Bool> = marked.iter().map(|(holds, _)| *holds).collect();
+        let mut all = Vec::with_capacity(most);
+        for _ in 0..most {
+            let (mut found, mut first) = (self.truth(false), self.index(0));
+            for ((_, value), rest) in marked.iter().zip(&mut rest) {
+                let taken = math!(self, *rest && !found);
+                let value = self.index(*value);
+                first = self.select_index(taken, value, first);
+                found = self.or(found, taken);
+                *rest = math!(self, *rest && !taken);
+            }
+            all.push((found, first));
+        }
+        all
+    }
     /// `a < value`
     fn below(&mut self, a: Self::Index, value: u32) -> Self::Bool;
     /// Row `row` of a table of reals with `K` columns.

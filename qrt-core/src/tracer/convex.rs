@@ -202,16 +202,25 @@ impl Groups {
     }
 }
 
-/// The convex bodies among the faces: planes are `tolerance` thick.
-pub(super) fn bodies(geometry: &StageGeometry, edges: &Edges, tolerance: f64) -> Vec<Body> {
-    let mut groups = Groups::new(geometry.faces.len());
+/// The faces (by place) in sets that meet at edges, each in order.
+pub(super) fn components(edges: &Edges) -> Vec<Vec<usize>> {
+    let mut groups = Groups::new(edges.corners.len());
     for faces in edges.at.values() {
         for pair in faces.windows(2) {
             groups.join(pair[0], pair[1]);
         }
     }
+    groups.sets(0..edges.corners.len())
+}
+
+/// The convex bodies among the faces: planes are `tolerance` thick.
+pub(super) fn bodies(
+    geometry: &StageGeometry,
+    edges: &Edges,
+    components: &[Vec<usize>],
+    tolerance: f64,
+) -> Vec<Body> {
     let mut budget = MOST_COMPARED;
-    let components = groups.sets(0..geometry.faces.len());
     let mut found = Vec::new();
     let mut virtual_planes = Vec::new();
     for component in components {
@@ -222,7 +231,7 @@ pub(super) fn bodies(geometry: &StageGeometry, edges: &Edges, tolerance: f64) ->
             budget: &mut budget,
             virtual_planes: &mut virtual_planes,
         };
-        found.extend(finder.body(&component));
+        found.extend(finder.body(component));
     }
     found
 }

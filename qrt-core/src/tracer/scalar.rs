@@ -93,6 +93,9 @@ impl Arith for Scalar {
     fn is(&mut self, a: u32, value: u32) -> bool {
         a == value
     }
+    fn same(&mut self, a: u32, b: u32) -> bool {
+        a == b
+    }
     fn below(&mut self, a: u32, value: u32) -> bool {
         a < value
     }

@@ -14,12 +14,14 @@
 //!   See [`super::convex`].
 //! - **Spheres** are compared by where the ray is nearest to their centres, without a root each. See
 //!   [`balls`].
+//! - **Meshes** of other shapes are tested by their edges, which neighbours share. See [`mesh`].
 //! - **Sides**: the sign of the slope towards a plane gives the side on which a ray meets it.
 //!
 //! The start of a ray decides which planes are outer, and which bodies it may enter. Rays that leave
 //! surfaces and rays of the camera have a [`Plan`] each.
 
 mod balls;
+mod mesh;
 mod plan;
 
 use super::convex::{self, Edges};
@@ -59,9 +61,10 @@ impl<'a> Search<'a> {
             surface_of: &stage.surface_of,
             ulp,
         };
-        let bodies = convex::bodies(geometry, &edges, THICKNESS.min(0.25 * ulp));
-        let camera = planner.plan(Start::Camera, &bodies);
-        let surfaces = planner.plan(Start::Surface, &bodies);
+        let components = convex::components(&edges);
+        let bodies = convex::bodies(geometry, &edges, &components, THICKNESS.min(0.25 * ulp));
+        let camera = planner.plan(Start::Camera, &bodies, &components);
+        let surfaces = planner.plan(Start::Surface, &bodies, &components);
         let frames = geometry.frames.iter().zip(&geometry.plane_of);
         let along = frames
             .map(|(frame, &plane)| frame.normal[geometry.planes[plane as usize].axis] > 0.0)
@@ -434,6 +437,7 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
             nearest.replace(cx, meets, &here);
             cx.leave();
         }
+        plan.mesh.nearest(cx, ray, &mut nearest);
         plan.balls.nearest(cx, ray, &mut nearest);
         let none = cx.index(NO_FACE);
         nearest.face = cx.select_index(gone, none, nearest.face);
@@ -456,6 +460,7 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
             hidden = math!(cx, hidden || meets);
             cx.leave();
         }
+        hidden = plan.mesh.hides(cx, ray, hit.distance, hidden);
         for (number, places) in &plan.before_lamps {
             let faces = places.iter().map(|&place| &self.geometry.faces[place]);
             let permuted = AxisPermuted::along(self.geometry.planes[*number].axis, ray);
@@ -485,6 +490,7 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
                 .geometry
                 .occluded_by(cx, *number, faces, &permuted, ray.from, lamp, hidden);
         }
+        hidden = plan.mesh.occluded(cx, ray, hidden);
         plan.balls.occluded(cx, ray, lamp, hidden)
     }
 }

@@ -8,7 +8,7 @@ use super::lane::{Float, Kind, LANES, Lane, Row};
 use super::pattern_bits;
 use super::product::{Factor, How, Product};
 use super::quotient::Quotient;
-use super::steps::{AddressBit, Step, StepLane};
+use super::steps::{AddressBit, EncodedBit, Step, StepLane};
 use super::table;
 use qrt_circuit::{Bit, Op, Operand, RegisterId, Word};
 
@@ -179,6 +179,12 @@ impl Compiler<'_> {
                     self.set(*target, (kind, t), CUT);
                 }
             }
+            Op::Encode {
+                bits,
+                entries,
+                targets,
+                ..
+            } => self.encode(bits, entries, targets),
             Op::XorInto { .. } | Op::AddInto { .. } | Op::Swap { .. } | Op::Phase { .. } => {
                 self.in_place(op, false);
             }
@@ -331,6 +337,24 @@ impl Compiler<'_> {
                 self.addresses.insert(digits, address);
                 address
             }
+        }
+    }
+
+    fn encode(&mut self, bits: &[Bit], entries: &[u64], targets: &[RegisterId]) {
+        let encoded = bits.iter().zip(entries).map(|(bit, entry)| EncodedBit {
+            truth: self.bit(*bit),
+            negated: bit.inverted,
+            entry: entry.cast_signed(),
+        });
+        let bits: Box<[EncodedBit]> = encoded.collect();
+        let values: Box<[u32]> = targets.iter().map(|_| self.value()).collect();
+        self.steps.push(Step::Encode {
+            bits,
+            targets: values.clone(),
+        });
+        for (target, value) in targets.iter().zip(&values) {
+            let (width, signed) = self.shape(*target);
+            self.set(*target, (Kind::Long, *value), range(width, signed));
         }
     }
 

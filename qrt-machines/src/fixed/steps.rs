@@ -2,7 +2,7 @@
 
 use super::arith::{Arith, Wrap};
 use super::block::Block;
-use super::lane::{Kind, Lane, Row, Slots, Spares};
+use super::lane::{Kind, LANES, Lane, Row, Slots, Spares};
 use super::product::Product;
 use super::quotient::Quotient;
 use super::seen::Seen;
@@ -46,6 +46,22 @@ pub(super) enum Step {
         bits: Box<[AddressBit]>,
         t: u32,
     },
+    /// The entries of the first bits that hold, as Longs.
+    Encode {
+        bits: Box<[EncodedBit]>,
+        targets: Box<[u32]>,
+    },
+}
+
+/// A bit that a priority encoder reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct EncodedBit {
+    /// The slot of the truth.
+    pub(super) truth: u32,
+    /// True if the bit is the negation of the truth.
+    pub(super) negated: bool,
+    /// The number of the bit.
+    pub(super) entry: i64,
 }
 
 /// A bit of an Int that is put together from truths.
@@ -125,6 +141,30 @@ fn cast<A: Lane, T: Lane>(
     }
 }
 
+/// Few bits hold: whole rows without one are passed over.
+fn encode(slots: &mut Slots, bits: &[EncodedBit], targets: &[u32]) {
+    for target in targets {
+        slots.longs[*target as usize].0.fill(0);
+    }
+    let mut found = [0_usize; LANES];
+    for bit in bits {
+        let flip = u8::from(bit.negated);
+        let truths = &slots.truths[bit.truth as usize].0;
+        if truths.iter().fold(0, |any, truth| any | (truth ^ flip)) == 0 {
+            continue;
+        }
+        for (lane, found) in found.iter_mut().enumerate() {
+            if truths[lane] ^ flip == 0 {
+                continue;
+            }
+            if let Some(target) = targets.get(*found) {
+                slots.longs[*target as usize].0[lane] = bit.entry;
+            }
+            *found += 1;
+        }
+    }
+}
+
 impl Step {
     /// Runs the step on all lanes.
     #[inline(always)]
@@ -183,6 +223,10 @@ impl Step {
                 }
                 std::mem::swap(row, &mut slots.ints[t as usize]);
             }
+            Self::Encode {
+                ref bits,
+                ref targets,
+            } => encode(slots, bits, targets),
         }
     }
 
@@ -218,6 +262,14 @@ impl Step {
                     see(Seen::read(Kind::Truth, &mut bit.truth));
                 }
                 see(Seen::computed(Kind::Int, t));
+            }
+            Self::Encode { bits, targets } => {
+                for bit in bits {
+                    see(Seen::read(Kind::Truth, &mut bit.truth));
+                }
+                for target in targets {
+                    see(Seen::computed(Kind::Long, target));
+                }
             }
         }
     }

@@ -239,9 +239,13 @@ impl<'a> Coder<'a> {
                 let op = self.op(*op);
                 let targets = self.targets(op);
                 let targets = match (op, targets.as_slice()) {
-                    (Op::Table { .. } | Op::Multiples { .. } | Op::Divide { .. }, all) => {
-                        format!("[{}]", all.join(", "))
-                    }
+                    (
+                        Op::Table { .. }
+                        | Op::Multiples { .. }
+                        | Op::Divide { .. }
+                        | Op::Encode { .. },
+                        all,
+                    ) => format!("[{}]", all.join(", ")),
                     (_, all) => all.concat(),
                 };
                 format!("let {targets} = __m.{};", self.call(op))
@@ -335,6 +339,11 @@ impl<'a> Coder<'a> {
             arguments.push(format!("[{}]", targets.join(", ")));
             arguments.push(self.word(*a));
             arguments.push(format!("&M{first}"));
+        } else if let Op::Encode { bits, entries, .. } = op {
+            let bits: Vec<String> = bits.iter().map(|bit| self.bit(*bit)).collect();
+            arguments.push(format!("[{}]", targets.join(", ")));
+            arguments.push(format!("&[{}]", bits.join(", ")));
+            arguments.push(format!("&{entries:?}"));
         } else {
             arguments.extend(targets);
             let read = op.arguments().into_iter().map(|argument| match argument {

@@ -358,6 +358,10 @@ impl<S: pulp::Simd, const W: usize> Arith for Lanes<'_, S, W> {
         each!(self, equal_u64s, a, value)
     }
     #[inline(always)]
+    fn same(&mut self, a: Self::Index, b: Self::Index) -> Self::Bool {
+        each!(self, equal_u64s, a, b)
+    }
+    #[inline(always)]
     fn below(&mut self, a: Self::Index, value: u32) -> Self::Bool {
         let value = self.index(value);
         each!(self, less_than_u64s, a, value)

@@ -450,3 +450,29 @@ fn tables() {
         }
     }
 }
+
+#[test]
+fn a_priority_encoder_finds_the_first_bits_that_hold() {
+    for count in 1..7_u32 {
+        for targets in 1..4 {
+            let bits: Box<[Bit]> = (0..count).map(|index| bit(0, index, index == 2)).collect();
+            let entries: Vec<u64> = (0..count)
+                .map(|place| 8 | (5 * u64::from(place)) % 8)
+                .collect();
+            let op = Op::Encode {
+                bits,
+                entries: entries.clone().into(),
+                targets: (1..=targets).map(|number| R[number]).collect(),
+                scratch: R[targets + 1],
+            };
+            let widths: Vec<u32> = [count].into_iter().chain(vec![4; targets]).collect();
+            Bench::new(&op, &widths).check_all(|_| true);
+            // One AND for each bit and each earlier bit whose target it may have to pass.
+            let passes: u64 = (0..u64::from(count))
+                .map(|bit| bit.min(targets as u64))
+                .sum();
+            let widths = |register: RegisterId| widths.get(register.index()).copied().unwrap_or(0);
+            assert_eq!(cost(&op, false, widths).toffoli, passes);
+        }
+    }
+}

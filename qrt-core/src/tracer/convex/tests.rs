@@ -20,7 +20,8 @@ fn found(outlines: &[Vec<[f64; 3]>]) -> Vec<[usize; 2]> {
     };
     let polygons: Vec<Polygon> = outlines.iter().map(polygon).collect();
     let geometry = StageGeometry::new(&polygons, &[], |_| false, &[]);
-    let bodies = bodies(&geometry, &Edges::new(&geometry), TOLERANCE);
+    let edges = Edges::new(&geometry);
+    let bodies = bodies(&geometry, &edges, &components(&edges), TOLERANCE);
     let bounds = bodies.iter().map(|body| {
         let with = body.bounds.iter().filter(|bound| !bound.faces.is_empty());
         let with = with.count();
@@ -151,7 +152,8 @@ fn a_polygon_is_inside_a_body_by_more_than_the_tolerance() {
         })
         .collect();
     let geometry = StageGeometry::new(&polygons, &[], |_| false, &[]);
-    let bodies = bodies(&geometry, &Edges::new(&geometry), TOLERANCE);
+    let edges = Edges::new(&geometry);
+    let bodies = bodies(&geometry, &edges, &components(&edges), TOLERANCE);
     // In stage units the box is from -0.5 to 0.5.
     let square = |half: f64, y: f64| {
         [[-half, -half], [half, -half], [half, half], [-half, half]]

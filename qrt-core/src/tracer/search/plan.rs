@@ -1,6 +1,7 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
 use super::balls::BallPlan;
+use super::mesh::MeshPlan;
 use crate::tracer::ball::StageBall;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
 use crate::tracer::geometry::StageGeometry;
@@ -21,6 +22,8 @@ pub(super) struct Plan {
     pub(super) bodies: Vec<Met>,
     /// Planes with emitting faces, and the places of these and of those that hide them.
     pub(super) emitting: Vec<(usize, Vec<usize>)>,
+    /// The meshes whose edges are tested.
+    pub(super) mesh: MeshPlan,
     /// The spheres.
     pub(super) balls: BallPlan,
     /// The other planes that may hide a lamp, and the places of their faces. They are tested as
@@ -174,7 +177,7 @@ impl Planner<'_> {
             || self.eyes.iter().any(|&eye| outside(eye) > 0.0)
     }
 
-    pub(super) fn plan(&self, start: Start, bodies: &[Body]) -> Plan {
+    pub(super) fn plan(&self, start: Start, bodies: &[Body], components: &[Vec<usize>]) -> Plan {
         let mut outer_sides = self.outer_sides(start);
         let mut rest: Vec<bool> = vec![true; self.geometry.faces.len()];
         let mut met = Vec::new();
@@ -211,6 +214,19 @@ impl Planner<'_> {
             }
         }
         let outer = self.outer(&outer_sides, &rest);
+        let on_inner_plane: Vec<bool> = (0..rest.len())
+            .map(|place| {
+                let plane = self.geometry.plane_of[self.label(place) as usize] as usize;
+                rest[place] && outer_sides[plane].is_none()
+            })
+            .collect();
+        let mesh = MeshPlan::new(self, start, components, &on_inner_plane);
+        let mut in_mesh = vec![false; self.geometry.plane_of.len()];
+        mesh.labels()
+            .for_each(|label| in_mesh[label as usize] = true);
+        for (place, rest) in rest.iter_mut().enumerate() {
+            *rest &= !in_mesh[self.label(place) as usize];
+        }
         let planes = self.planes_with(|place| rest[place]).into_iter();
         let planes = planes.filter(|(number, _)| outer_sides[*number].is_none());
         let at_lamps = |place: usize| {
@@ -241,6 +257,7 @@ impl Planner<'_> {
             outer,
             planes: planes.collect(),
             bodies: bodies.collect(),
+            mesh,
             balls: BallPlan::new(self.geometry, self.eyes, self.transmits, start, self.ulp),
             emitting: self.planes_with(|place| self.geometry.faces[place].is_asked_first()),
             before_lamps: before_lamps.collect(),

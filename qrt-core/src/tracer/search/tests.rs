@@ -12,6 +12,7 @@ use scenes::scenes;
 use std::fmt::Write;
 
 mod balls;
+pub(super) mod circuit;
 mod found;
 mod scenes;
 

