@@ -7,6 +7,10 @@ use qrt_runtime::Prepared;
 use qrt_runtime::plan::PlanFigures;
 use qrt_scene::valid::ValidScene;
 
+/// The largest number of operations of an oracle whose passes are compared: each of six steps compiles it
+/// again.
+pub const MOST_OPS: usize = 1 << 19;
+
 /// The figures of one of a scene's oracles.
 pub struct InspectFigures<'a> {
     /// The scene, with the parameters that were planned for it.
@@ -15,7 +19,7 @@ pub struct InspectFigures<'a> {
     pub inspection: Inspection,
     /// The costs of all oracles of the scene.
     pub costs: Vec<OracleCost>,
-    /// The figures of each pass of the compiler on the oracle, in order.
+    /// The figures of each pass of the compiler on the oracle, in order; empty beyond [`MOST_OPS`].
     pub passes: Vec<PassFigures>,
     /// The plan, if the scene asks for an accuracy.
     pub plan: Option<&'a PlanFigures>,
@@ -47,10 +51,15 @@ impl<'a> InspectFigures<'a> {
             Some(pixel) => pixel_counts(scene, &inspection.oracle, pixel)?,
             None => None,
         };
+        let passes = if inspection.oracle.program.ops.len() > MOST_OPS {
+            Vec::new()
+        } else {
+            inspection.passes(oracles)?
+        };
         Ok(Self {
             scene,
             costs,
-            passes: inspection.passes(oracles)?,
+            passes,
             plan: prepared.plan(),
             counts,
             inspection,

@@ -2,7 +2,7 @@
 
 use super::table::joined;
 use super::value::{BoolValue, Choice, Index, RealValue, Tabulated};
-use super::{Builder, GARBAGE, MAX_ADDRESS};
+use super::{Builder, GARBAGE, MAX_INDEX};
 use qrt_circuit::{Bit, Op, Operand, Type, Word};
 use std::rc::Rc;
 
@@ -14,7 +14,7 @@ fn bits_below(bound: u32) -> u32 {
 impl Builder<'_> {
     /// The integer that `word` holds.
     pub(super) fn choice_of(&mut self, word: Word) -> Index {
-        let table = (word.width <= MAX_ADDRESS).then(|| {
+        let table = (word.width <= MAX_INDEX).then(|| {
             // Words of one width share these entries: each table of a face index is as long as the
             // number of faces.
             let counted = || (0..1_u32 << word.width).map(f64::from).collect();

@@ -301,6 +301,28 @@ impl PixelWord {
         qrt_circuit::Parameter { name, width }
     }
 
+    /// Numbers that two words share if they are equal.
+    pub(super) fn key(&self) -> [u64; 5] {
+        match *self {
+            Self::Shift { coordinate, bits } => {
+                let [square, axis] = [coordinate.square as u64, coordinate.axis as u64];
+                [u64::MAX, coordinate.depth as u64, square, axis, bits.into()]
+            }
+            Self::Affine {
+                constant,
+                along,
+                fraction,
+                width,
+            } => {
+                // 0 and -0 are one number.
+                let [constant, column, row] =
+                    [constant, along[0], along[1]].map(|number| (number + 0.0).to_bits());
+                let shape = u64::from(fraction) << 32 | u64::from(width);
+                [shape, constant, column, row, 0]
+            }
+        }
+    }
+
     /// The parameter's bits in pixel (column, row).
     pub fn value(&self, points: &PathPoints, seed: u64, pixel: [u32; 2]) -> u64 {
         match *self {

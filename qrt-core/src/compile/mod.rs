@@ -67,8 +67,11 @@ use number::negative as negative_range;
 /// Most bits of any number: an `i64` holds it with its sign and one bit to spare.
 const MAX_BITS: u32 = 62;
 
-/// Most address bits of a table.
+/// Most address bits of the table of a function of a sample coordinate.
 const MAX_ADDRESS: u32 = 16;
+
+/// Most bits of an integer that tables are addressed by: the number of any face.
+const MAX_INDEX: u32 = 22;
 
 /// Most address bits of a function that is tabulated although arithmetic could compute it.
 const FEW: usize = 10;
@@ -199,6 +202,8 @@ pub struct Builder<'a> {
     registers: Vec<Register>,
     blocks: Vec<Block>,
     parameters: Vec<PixelWord>,
+    /// The index of each parameter, by [`PixelWord::key`].
+    places: QuickMap<[u64; 5], u32>,
     ops: Vec<(Op, BlockId)>,
     records: Vec<RegisterId>,
     error: Option<BuildError>,
@@ -247,6 +252,7 @@ impl<'a> Builder<'a> {
                 .block(None),
             ],
             parameters: Vec::new(),
+            places: QuickMap::default(),
             ops: Vec::new(),
             records: Vec::new(),
             error: None,
@@ -457,11 +463,11 @@ impl<'a> Builder<'a> {
 
     /// The index of a parameter, which is added if it is new.
     fn parameter(&mut self, parameter: PixelWord) -> u32 {
-        let found = self.parameters.iter().position(|known| *known == parameter);
-        found.unwrap_or_else(|| {
+        let next = self.parameters.len() as u32;
+        *self.places.entry(parameter.key()).or_insert_with(|| {
             self.parameters.push(parameter);
-            self.parameters.len() - 1
-        }) as u32
+            next
+        })
     }
 
     fn sample_index(&mut self, coordinate: Coordinate) -> Index {

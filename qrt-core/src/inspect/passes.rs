@@ -3,7 +3,8 @@
 use super::Inspection;
 use crate::compile::Passes;
 use crate::oracle::{OracleError, Oracles};
-use qrt_circuit::lower::{self, Cost};
+use qrt_circuit::lower::{self, KnownFigures};
+use qrt_circuit::{Cores, Instruction, Op};
 
 /// The cost of a call of the oracle after a pass was added to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,14 +58,21 @@ pub(super) fn figures(
         Some(pixel) => oracles.of_pixel(pixel).by_passes(inspection.name, &passes),
         None => oracles.by_passes(inspection.name, &passes),
     };
+    let mut known = KnownFigures::default();
     for ((name, _), oracle) in steps.iter().zip(by_passes?) {
         let whole = oracle.whole(0);
         requested = oracle.sharing;
+        let ops: Vec<&Op> = whole.ops.iter().collect();
+        let of_ops = known.all(&ops, |register| whole.width(register), Cores::All);
+        let toffoli = |instruction: &Instruction| {
+            let costs = &of_ops[instruction.op as usize].costs;
+            costs[usize::from(instruction.inverse)].toffoli
+        };
         figures.push(PassFigures {
             name,
-            toffoli: lower::tally(&whole).into_iter().sum::<Cost>().toffoli,
+            toffoli: whole.instructions.iter().map(toffoli).sum(),
             ops: oracle.program.ops.len() as u64,
-            qubits: lower::size(&whole).qubits,
+            qubits: lower::most_qubits_by(&whole, |op| of_ops[op].borrowed),
             requested,
         });
     }

@@ -4,7 +4,7 @@ use qrt_circuit::lower::Cost;
 use qrt_core::compile::Role;
 use qrt_core::inspect::{BlockFigures, CallPart, CallStage, Inspection, grouped};
 use qrt_core::oracle::PARTS_OF_A_CALL;
-use qrt_lab::inspect::InspectFigures;
+use qrt_lab::inspect::{InspectFigures, MOST_OPS};
 use qrt_scene::{Uncompute, Window};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -327,6 +327,11 @@ fn within(
 }
 
 fn passes(out: &mut String, shown: &InspectFigures<'_>) {
+    if shown.passes.is_empty() {
+        let most = grouped(MOST_OPS as u64);
+        let _ = writeln!(out, "passes are not compared: more than {most} operations");
+        return;
+    }
     let _ = writeln!(
         out,
         "{:<NAME$}{:>14}{:>6}{:>14}{:>15}{:>20}",

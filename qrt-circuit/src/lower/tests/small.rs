@@ -2,6 +2,7 @@
 
 use super::super::super::{Bit, Multiples, Op, Operand, RegisterId, Style, When, Word};
 use super::simulate::{Bench, check};
+use crate::lower::cost;
 use std::sync::Arc;
 
 const R: [RegisterId; 6] = [

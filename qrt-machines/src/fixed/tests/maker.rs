@@ -143,7 +143,7 @@ impl Maker {
         }
     }
 
-    /// Adds an operation of kind `kind`, of 19 kinds.
+    /// Adds an operation of kind `kind`, of 20 kinds.
     pub(crate) fn op(&mut self, kind: u32) {
         let style = Style::OutOfPlace;
         let scratch = self.register(1, false);
@@ -334,6 +334,22 @@ impl Maker {
                 let [a, b] = pair;
                 Op::Swap { a, b, when }
             }
+            18 => {
+                let bits: Box<[Bit]> = (0..self.dice.between(1, 9)).map(|_| self.bit()).collect();
+                let width = self.dice.between(1, self.widest.min(40));
+                let entries = bits.iter().map(|_| {
+                    let top = 1 << (width - 1);
+                    top | self.dice.word() & (top - 1)
+                });
+                let entries = entries.collect();
+                let targets = (0..3).map(|_| self.register(width, false)).collect();
+                Op::Encode {
+                    bits,
+                    entries,
+                    targets,
+                    scratch,
+                }
+            }
             _ => Op::Phase { bit: self.bit() },
         };
         self.push(op);
@@ -341,7 +357,7 @@ impl Maker {
 }
 
 /// Number of the kinds of operations that [`Maker::op`] knows.
-pub(crate) const KINDS: u32 = 19;
+pub(crate) const KINDS: u32 = 20;
 
 /// Contents of `width` bits that are likely to matter: any contents, and contents near the ends.
 pub(crate) fn contents_of(dice: &mut Dice, width: u32, many: usize) -> Vec<u64> {
