@@ -142,7 +142,7 @@ impl MeshPlan {
     /// True where `hidden` is, or where a face stands between the start of `ray` and its end, one length
     /// of its direction away.
     pub(super) fn occluded<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, hidden: A::Bool) -> A::Bool {
-        if self.faces.is_empty() {
+        if self.is_empty() {
             return hidden;
         }
         // An edge's reach is a distance if the direction has unit length.
@@ -154,7 +154,7 @@ impl MeshPlan {
 
     /// Calls `see` with every face that the line of the ray meets.
     fn each<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, mut see: impl FnMut(&mut A, &Crossed<A>)) {
-        if self.faces.is_empty() {
+        if self.is_empty() {
             return;
         }
         cx.enter(TracerPart::Mesh);
@@ -326,7 +326,11 @@ impl MeshPlan {
         }
     }
 
-    /// The places of its faces.
+    pub(super) fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// The labels of its faces.
     pub(super) fn labels(&self) -> impl Iterator<Item = u32> + '_ {
         self.faces.iter().map(|face| face.label)
     }

@@ -28,6 +28,28 @@ pub(super) fn scenes() -> Vec<(&'static str, Stage<3>)> {
     };
     let axis = cuboid([-0.3, 0.0, -0.3], [0.3, 0.8, 0.3]);
     with("empty room", &front, &[room]);
+    let ring = || ring().at(0.1, 0.6, 0.2).turned(0.3);
+    with("a ring", &front, &[room, &[ring()]]);
+    with(
+        "a ring of glass",
+        &front,
+        &[room, &[ring().made_of("glass")]],
+    );
+    with(
+        "a ring on a floor",
+        &front,
+        &[floor, &[lamp(0.4, 2.99), ring()]],
+    );
+    with(
+        "half a ring",
+        &front,
+        &[room, &[ring().without(&[0, 1, 2, 3, 40, 41, 42, 43])]],
+    );
+    with(
+        "from within a ring",
+        &perspective([0.1, 0.6, 0.8], MIDDLE, 45.0),
+        &[room, &[ring()]],
+    );
     with("boxes", &front, &[room, &standing(&axis)]);
     with(
         "boxes along the axes",
