@@ -20,8 +20,8 @@
 //!   plane of its face up: one division a slot, and none a face.
 
 use super::Running;
-use super::plan::Planner;
-use crate::tracer::convex::Edges;
+use crate::tracer::ball::StageBall;
+use crate::tracer::convex::{Edges, covered};
 use crate::tracer::crossing::{AxisPermuted, rise, slope};
 use crate::tracer::geometry::StageGeometry;
 use crate::tracer::ray::{Ray, Start};
@@ -85,6 +85,19 @@ struct SlotTable {
     numbers: Vec<u32>,
     /// 1 if the face's front is met where the ray falls towards its plane.
     along: Vec<u32>,
+}
+
+/// The facts about a stage that decide how its meshes are searched.
+#[derive(Clone, Copy)]
+pub(super) struct MeshStage<'a> {
+    pub(super) geometry: &'a StageGeometry,
+    pub(super) edges: &'a Edges,
+    /// The points where the camera's rays start, or the corners of the area that they start from.
+    pub(super) eyes: &'a [DVec3],
+    /// By face label: true if rays may go on beyond the face.
+    pub(super) transmits: &'a [bool],
+    /// One unit in the last place.
+    pub(super) ulp: f64,
 }
 
 /// The search of meshes, for rays with one kind of start.
@@ -253,12 +266,12 @@ impl MeshPlan {
     /// The meshes among `components`, each the places of faces that meet at edges. `rest` tells by place
     /// which faces nothing else tests.
     pub(super) fn new(
-        planner: &Planner<'_>,
+        stage: MeshStage<'_>,
         start: Start,
         components: &[Vec<usize>],
         rest: &[bool],
     ) -> Self {
-        let geometry = planner.geometry;
+        let geometry = stage.geometry;
         let mut chosen: Vec<(usize, Facing)> = Vec::new();
         let mut cost = 0;
         for component in components {
@@ -266,7 +279,7 @@ impl MeshPlan {
             if faces.len() < 4 || !is_apart(geometry, &faces) {
                 continue;
             }
-            let facing = planner.facing(start, component);
+            let facing = stage.facing(component);
             cost += planes_of(geometry, &faces).len() * PLANE + faces.len() * ON_PLANE;
             chosen.extend(faces.into_iter().map(|place| (place, facing)));
         }
@@ -275,26 +288,26 @@ impl MeshPlan {
             return Self::default();
         }
         let slots = {
-            let any = Self::with_faces(planner, Start::Surface, &chosen);
-            lines::most_crossings(&any, planner, start)
+            let any = Self::with_faces(stage, Start::Surface, &chosen);
+            lines::most_crossings(&any, stage, start)
         };
         if cost <= chosen.len() * BY_EDGES + slots * SLOT {
             return Self::default();
         }
         Self {
             slots,
-            ..Self::with_faces(planner, start, &chosen)
+            ..Self::with_faces(stage, start, &chosen)
         }
     }
 
-    fn with_faces(planner: &Planner<'_>, start: Start, chosen: &[(usize, Facing)]) -> Self {
-        let geometry = planner.geometry;
-        let eye = match planner.eyes {
+    fn with_faces(stage: MeshStage<'_>, start: Start, chosen: &[(usize, Facing)]) -> Self {
+        let geometry = stage.geometry;
+        let eye = match stage.eyes {
             [eye] if start == Start::Camera => Some(*eye),
             _ => None,
         };
         let ends_of = |place: usize| {
-            let corners = &planner.edges.corners[place];
+            let corners = &stage.edges.corners[place];
             (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
         };
         let in_order = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
@@ -302,7 +315,7 @@ impl MeshPlan {
         let mut all: Vec<[u32; 2]> = all.map(in_order).collect();
         all.sort_unstable();
         all.dedup();
-        let edge = |ends| (ends, Edge::new(planner.edges.ends(ends), eye, planner.ulp));
+        let edge = |ends| (ends, Edge::new(stage.edges.ends(ends), eye, stage.ulp));
         let mut edges: Vec<([u32; 2], Edge)> = all.into_iter().map(edge).collect();
         edges.sort_by(|(_, a), (_, b)| a.cmp_size(b));
         let numbers: HashMap<[u32; 2], usize> = (0..)
@@ -322,7 +335,7 @@ impl MeshPlan {
             slots: 0,
             table: SlotTable::new(geometry, chosen),
             from_eye: eye.is_some(),
-            reach: REACH * planner.ulp,
+            reach: REACH * stage.ulp,
         }
     }
 
@@ -374,9 +387,7 @@ impl Edge {
             along: rounded(along, STEPS[0] * ulp),
         }
     }
-}
 
-impl Edge {
     /// Compares the magnitudes of the constants: edges of one group then share more products.
     fn cmp_size(&self, other: &Self) -> Ordering {
         let sizes = |edge: &Self| {
@@ -395,10 +406,9 @@ impl SlotTable {
         let mut labels: Vec<u32> = labels.collect();
         labels.sort_unstable();
         let mut table = Self::default();
-        let mut next = labels.iter().copied();
         // Labels of no face of a mesh are never looked up: they repeat the next face.
         let mut row = 0;
-        while let Some(label) = next.next() {
+        for label in labels {
             let number = geometry.plane_of[label as usize];
             let plane = &geometry.planes[number as usize];
             let along = geometry.frames[label as usize].normal[plane.axis] > 0.0;
@@ -437,21 +447,19 @@ fn is_apart(geometry: &StageGeometry, faces: &[usize]) -> bool {
     }
     planes_of(geometry, faces).into_iter().all(|number| {
         let range = geometry.planes[number as usize].faces.clone();
-        let own: Vec<usize> = {
-            let first = faces.partition_point(|&place| place < range.start);
-            let last = faces.partition_point(|&place| place < range.end);
-            faces[first..last].to_vec()
-        };
-        own.len() == range.len() || !crate::tracer::convex::covered(geometry, number as usize, &own)
+        let [first, last] =
+            [range.start, range.end].map(|end| faces.partition_point(|&place| place < end));
+        let own = &faces[first..last];
+        own.len() == range.len() || !covered(geometry, number as usize, own)
     })
 }
 
-impl Planner<'_> {
+impl MeshStage<'_> {
     /// The sides from which rays may meet the faces of a component (by place).
     ///
     /// Rays that start outside a closed surface meet its outer side first. It is the front if the surface
     /// encloses a volume above 0.
-    fn facing(&self, start: Start, component: &[usize]) -> Facing {
+    fn facing(&self, component: &[usize]) -> Facing {
         let geometry = self.geometry;
         let label = |place: usize| geometry.faces[place].label as usize;
         if component.iter().any(|&place| self.transmits[label(place)])
@@ -474,11 +482,10 @@ impl Planner<'_> {
         let outside = apart
             || matches!(self.eyes, [eye] if !lines::encloses(component.iter().map(outline), *eye, self.ulp));
         // A sphere that cuts the surface has points of its own within, from which rays start.
-        let cut = |ball: &crate::tracer::ball::StageBall| {
+        let cut = |ball: &StageBall| {
             let around = ball.centre.clamp(low, high).distance(ball.centre);
             around < ball.radius + self.ulp
         };
-        let _ = start;
         if !outside || geometry.balls.iter().any(cut) {
             return Facing::Both;
         }

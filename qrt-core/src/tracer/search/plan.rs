@@ -1,7 +1,7 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
 use super::balls::BallPlan;
-use super::mesh::MeshPlan;
+use super::mesh::{MeshPlan, MeshStage};
 use crate::tracer::ball::StageBall;
 use crate::tracer::convex::{Body, Bound, Edges, covered, height};
 use crate::tracer::geometry::StageGeometry;
@@ -220,7 +220,14 @@ impl Planner<'_> {
                 rest[place] && outer_sides[plane].is_none()
             })
             .collect();
-        let mesh = MeshPlan::new(self, start, components, &on_inner_plane);
+        let meshes = MeshStage {
+            geometry: self.geometry,
+            edges: self.edges,
+            eyes: self.eyes,
+            transmits: self.transmits,
+            ulp: self.ulp,
+        };
+        let mesh = MeshPlan::new(meshes, start, components, &on_inner_plane);
         let mut in_mesh = vec![false; self.geometry.plane_of.len()];
         mesh.labels()
             .for_each(|label| in_mesh[label as usize] = true);

@@ -1,9 +1,9 @@
 //! Lines through meshes, in `f64`: the number of faces that a line meets.
 
-use super::{ERROR, Facing, MeshPlan};
+use super::{ERROR, Facing, MeshPlan, MeshStage};
 use crate::tracer::ray::Start;
-use crate::tracer::search::plan::Planner;
 use glam::DVec3;
+use qrt_scene::sampling::pixel_shift;
 
 /// Number of lines that are tried.
 const LINES: u64 = 1 << 14;
@@ -138,16 +138,13 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Numbers that look random, the same in every run (Steele, Lea and Flood 2014).
-struct Random(u64);
+/// Numbers that look random, the same in every run.
+struct Random(usize);
 
 impl Random {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0 += 1;
+        pixel_shift(0, 0, 0, self.0)
     }
 
     fn unit(&mut self) -> f64 {
@@ -165,16 +162,12 @@ impl Random {
 
 /// The number of slots for the faces of `plan`: the most faces that one of many lines may meet, and one more.
 /// The lines begin at the starts of rays, and pass through points and corners of the faces.
-pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Start) -> usize {
-    let geometry = planner.geometry;
+pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start) -> usize {
+    let geometry = stage.geometry;
     let outline = |label: u32| &*geometry.corners[label as usize];
-    let tree = Tree::new(plan, plan.labels().map(outline).collect(), planner.ulp);
-    let low = planner
-        .eyes
-        .iter()
-        .copied()
-        .fold(DVec3::INFINITY, DVec3::min);
-    let high = planner
+    let tree = Tree::new(plan, plan.labels().map(outline).collect(), stage.ulp);
+    let low = stage.eyes.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = stage
         .eyes
         .iter()
         .copied()
