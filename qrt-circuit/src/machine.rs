@@ -17,6 +17,8 @@ pub struct Declaration {
     /// The index of the garbage register of the operation whose first target this register is;
     /// `None` if it has no place in the program's list.
     pub scratch: Option<RegisterId>,
+    /// The style of the operation whose first target this register is; `None` for the machine's.
+    pub style: Option<Style>,
     /// The register's name.
     pub name: &'static str,
     /// The meaning of the register's bits.
@@ -43,6 +45,7 @@ impl Declaration {
         Self {
             id: None,
             scratch: None,
+            style: None,
             name,
             ty,
             tag: Tag(0),
@@ -83,6 +86,14 @@ impl Declaration {
     pub const fn scratch(self, scratch: u32) -> Self {
         Self {
             scratch: Some(RegisterId(scratch)),
+            ..self
+        }
+    }
+
+    /// Returns the same declaration, as the first target of an operation that is lowered in this style.
+    pub const fn style(self, style: Style) -> Self {
+        Self {
+            style: Some(style),
             ..self
         }
     }
@@ -401,12 +412,24 @@ pub trait Machine {
         )
     }
     /// [`Op::Encode`]
+    ///
+    /// # Panics
+    /// If there is not one entry for each bit, if the targets differ in width, or if the top bit of an entry
+    /// is not the top bit of the targets.
     fn encode<const N: usize>(
         &mut self,
         targets: [&Declaration; N],
         bits: &[Bit<&Self::Register>],
         entries: &[u64],
     ) -> [Self::Register; N] {
+        let width = targets.first().map_or(0, |target| target.width);
+        let is_wide = |entry: &u64| 64 - entry.leading_zeros() == width;
+        assert!(
+            bits.len() == entries.len()
+                && targets.iter().all(|target| target.width == width)
+                && entries.iter().all(is_wide),
+            "an encoder has one entry for each bit, with its top bit at the top of each target"
+        );
         compute_all(
             self,
             Op::Encode {

@@ -174,7 +174,8 @@ impl Recorder {
     /// Records an operation, and returns its targets.
     fn compute(&mut self, op: Op<&Recorded, &Declaration>) -> Vec<RegisterId> {
         let declared = op.targets().first().and_then(|t| t.scratch);
-        let (style, number) = (self.style, self.number);
+        let style = op.targets().first().and_then(|t| t.style);
+        let (style, number) = (style.unwrap_or(self.style), self.number);
         let unknown = RegisterId(self.program.registers.len() as u32 + op.targets().len() as u32);
         let op = op.map(
             |register| register.on(number),

@@ -2,6 +2,7 @@
 
 use super::super::{Gate, GateCircuit, Op, Program, Qubit, RegisterId};
 use super::Lowering;
+use super::figures::QuickMap;
 use std::cell::RefCell;
 use std::convert::Infallible;
 
@@ -144,6 +145,9 @@ pub fn scratch_width(op: &Op, width: impl Fn(RegisterId) -> u32) -> u32 {
 /// An operation whose registers are numbered in the order in which it names them, and their widths.
 pub(super) type Shape = (Op, Box<[u32]>);
 
+/// Number of registers from which a map finds them.
+const SEARCHED: usize = 32;
+
 /// Returns an operation whose registers are numbered in the order in which it names them, and their
 /// widths. The width of its garbage register, which is still unknown, is 0.
 pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
@@ -156,19 +160,28 @@ pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
 /// Returns an operation whose registers are numbered in the order in which it names them, and those
 /// registers.
 pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
-    // Registers that are read and registers that are written share one numbering.
-    let known = RefCell::new(Vec::new());
+    // Registers that are read and registers that are written share one numbering. Most operations name so
+    // few that a search is quicker than a map.
+    let known: RefCell<(Vec<RegisterId>, QuickMap<RegisterId, usize>)> = RefCell::default();
     let number = |id: RegisterId| {
-        let ids = &mut *known.borrow_mut();
-        let place = ids.iter().position(|known| *known == id);
-        let place = place.unwrap_or_else(|| {
+        let (ids, places) = &mut *known.borrow_mut();
+        let found = match places.is_empty() {
+            true => ids.iter().position(|known| *known == id),
+            false => places.get(&id).copied(),
+        };
+        let place = found.unwrap_or_else(|| {
             ids.push(id);
+            if ids.len() == SEARCHED {
+                places.extend(ids.iter().enumerate().map(|(place, id)| (*id, place)));
+            } else if ids.len() > SEARCHED {
+                places.insert(id, ids.len() - 1);
+            }
             ids.len() - 1
         });
         RegisterId(place as u32)
     };
     let op = op.clone().map(number, number);
-    (op, known.into_inner())
+    (op, known.into_inner().0)
 }
 
 /// Creates a lowering with registers of these `widths` on qubits of their own.

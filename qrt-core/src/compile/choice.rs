@@ -14,7 +14,12 @@ fn bits_below(bound: u32) -> u32 {
 impl Builder<'_> {
     /// The integer that `word` holds.
     pub(super) fn choice_of(&mut self, word: Word) -> Index {
-        let table = (word.width <= MAX_INDEX).then(|| {
+        self.choice_within(word, MAX_INDEX)
+    }
+
+    /// The integer that `word` holds, with a table if it has at most this number of bits.
+    pub(super) fn choice_within(&mut self, word: Word, bits: u32) -> Index {
+        let table = (word.width <= bits).then(|| {
             // Words of one width share these entries: each table of a face index is as long as the
             // number of faces.
             let counted = || (0..1_u32 << word.width).map(f64::from).collect();
@@ -182,10 +187,20 @@ impl Builder<'_> {
         if count == 0 {
             return all;
         }
-        // No truth value here is the constant true: a line that meets a face on all paths would be a
-        // table of no bits.
         let width = bits_below(greatest + 1).max(1);
-        let bits = marked.iter().map(|(holds, _)| self.bit(*holds)).collect();
+        let bits = marked.iter().map(|(holds, _)| match holds {
+            // A face that covers all pixels at hand is met on all paths.
+            BoolValue::Constant(_) => {
+                let one = self.constant_word(1);
+                Bit {
+                    register: one.register,
+                    index: one.offset,
+                    inverted: false,
+                }
+            }
+            BoolValue::Node { .. } => self.bit(*holds),
+        });
+        let bits = bits.collect();
         let entries = marked
             .iter()
             .map(|(_, value)| 1 << width | u64::from(*value));

@@ -102,7 +102,7 @@ impl Builder<'_> {
     }
 
     /// A register that holds a constant.
-    fn constant_word(&mut self, value: i64) -> Word {
+    pub(super) fn constant_word(&mut self, value: i64) -> Word {
         let RegisterShape { ty, width, signed } = self.shape([value; 2]);
         let target = self.emit(Op::Add {
             a: Operand::Constant(value),

@@ -1,7 +1,7 @@
 //! Groups of edges that are undone at their ends.
 //!
 //! A group computes the sides on which a ray passes its edges: bits, the top ones of sums. If its work is
-//! undone at its end, all of a register that others read is kept. So each group computes its products
+//! undone at its end, the whole of each register that others read is kept. So each group computes its products
 //! itself, even those that another group has, and copies the bits that others read.
 
 use super::draft::Draft;
@@ -118,6 +118,7 @@ impl Separation<'_> {
             name: format!("{}.{index}", original.name),
             ty: Type::Bool,
             width: 1,
+            range: None,
             ..original
         });
         let a = Word {

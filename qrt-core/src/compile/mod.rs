@@ -70,8 +70,8 @@ const MAX_BITS: u32 = 62;
 /// Most address bits of the table of a function of a sample coordinate.
 const MAX_ADDRESS: u32 = 16;
 
-/// Most bits of an integer that tables are addressed by: the number of any face.
-const MAX_INDEX: u32 = 22;
+/// Most bits of an integer that tables are addressed by: the number of any face, or of none.
+const MAX_INDEX: u32 = 23;
 
 /// Most address bits of a function that is tabulated although arithmetic could compute it.
 const FEW: usize = 10;
@@ -491,13 +491,14 @@ impl<'a> Builder<'a> {
                 parameter,
                 target: (Type::UInt, bits),
             })[0];
-            self.choice_of(Word {
+            let word = Word {
                 register: target,
                 offset: 0,
                 width: bits,
                 signed: false,
                 shift: 0,
-            })
+            };
+            self.choice_within(word, MAX_ADDRESS)
         };
         self.coordinates.insert(coordinate, index);
         index

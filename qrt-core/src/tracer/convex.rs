@@ -12,7 +12,7 @@ use super::geometry::StageGeometry;
 use super::polygon::{Plane, plane_of};
 use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Most comparisons of a corner with a plane. Beyond this, no more bodies are searched.
 const MOST_COMPARED: usize = 1 << 24;
@@ -402,8 +402,9 @@ impl Finder<'_> {
 pub(super) fn covered(geometry: &StageGeometry, plane: usize, faces: &[usize]) -> bool {
     let range = geometry.planes[plane].faces.clone();
     let outline = |place: usize| &*geometry.corners[geometry.faces[place].label as usize];
+    let own: HashSet<usize> = faces.iter().copied().collect();
     let others: Vec<&[DVec3]> = range
-        .filter(|place| !faces.contains(place))
+        .filter(|place| !own.contains(place))
         .map(outline)
         .collect();
     if others.is_empty() {

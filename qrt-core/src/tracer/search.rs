@@ -58,6 +58,7 @@ impl<'a> Search<'a> {
             edges: &edges,
             eyes: &stage.starts,
             transmits: &stage.transmits,
+            parallel: (!stage.camera.perspective).then(|| stage.camera.fixed.into()),
             surface_of: &stage.surface_of,
             ulp,
         };

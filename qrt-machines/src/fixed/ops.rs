@@ -341,10 +341,12 @@ impl Compiler<'_> {
     }
 
     fn encode(&mut self, bits: &[Bit], entries: &[u64], targets: &[RegisterId]) {
+        let widest = targets.iter().map(|target| self.shape(*target).0).max();
+        let mask = u64::MAX >> (64 - widest.unwrap_or(1).clamp(1, 64));
         let encoded = bits.iter().zip(entries).map(|(bit, entry)| EncodedBit {
             truth: self.bit(*bit),
             negated: bit.inverted,
-            entry: entry.cast_signed(),
+            entry: (entry & mask).cast_signed(),
         });
         let bits: Box<[EncodedBit]> = encoded.collect();
         let values: Box<[u32]> = targets.iter().map(|_| self.value()).collect();

@@ -60,7 +60,7 @@ pub(super) struct EncodedBit {
     pub(super) truth: u32,
     /// True if the bit is the negation of the truth.
     pub(super) negated: bool,
-    /// The number of the bit.
+    /// The entry of the bit.
     pub(super) entry: i64,
 }
 
@@ -141,7 +141,8 @@ fn cast<A: Lane, T: Lane>(
     }
 }
 
-/// Few bits hold: whole rows without one are passed over.
+/// Writes the entries of the first bits that hold to the targets. Passes over rows in which a bit holds on no
+/// lane, which are most of a mesh's.
 fn encode(slots: &mut Slots, bits: &[EncodedBit], targets: &[u32]) {
     for target in targets {
         slots.longs[*target as usize].0.fill(0);

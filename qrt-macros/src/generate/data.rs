@@ -29,9 +29,19 @@ fn ty(ty: Type) -> String {
 fn registers(out: &mut String, oracle: &Oracle) {
     let program = &oracle.program;
     let mut scratch: HashMap<u32, u32> = HashMap::new();
+    // The styles that differ from the outline's.
+    let mut styles: HashMap<u32, Style> = HashMap::new();
+    let style_of_most = program.ops.iter().find_map(Op::style);
     for op in &program.ops {
-        if let (Some(target), Some(left)) = (op.targets().first(), op.scratch()) {
+        let targets = op.targets();
+        let Some(target) = targets.first() else {
+            continue;
+        };
+        if let Some(left) = op.scratch() {
             scratch.insert(target.0, left.0);
+        }
+        if let Some(style) = op.style().filter(|_| op.style() != style_of_most) {
+            styles.insert(target.0, style);
         }
     }
     let _ = writeln!(
@@ -56,6 +66,9 @@ fn registers(out: &mut String, oracle: &Oracle) {
         }
         if let Some(left) = scratch.get(&(id as u32)) {
             let _ = write!(out, ".scratch({left})");
+        }
+        if let Some(style) = styles.get(&(id as u32)) {
+            let _ = write!(out, ".style(Style::{style:?})");
         }
         out.push_str(",\n");
     }

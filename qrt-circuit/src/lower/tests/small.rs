@@ -458,7 +458,7 @@ fn a_priority_encoder_finds_the_first_bits_that_hold() {
         for targets in 1..4 {
             let bits: Box<[Bit]> = (0..count).map(|index| bit(0, index, index == 2)).collect();
             let entries: Vec<u64> = (0..count)
-                .map(|place| 8 | (5 * u64::from(place)) % 8)
+                .map(|place| 8 + (5 * u64::from(place)) % 8)
                 .collect();
             let op = Op::Encode {
                 bits,

@@ -21,7 +21,7 @@
 
 use super::Running;
 use crate::tracer::ball::StageBall;
-use crate::tracer::convex::{Edges, covered};
+use crate::tracer::convex::{Edges, covered, height};
 use crate::tracer::crossing::{AxisPermuted, rise, slope};
 use crate::tracer::geometry::StageGeometry;
 use crate::tracer::ray::{Ray, Start};
@@ -45,11 +45,17 @@ const STEPS: [f64; 2] = [16.0, 4.0];
 /// Number of edges whose products with constants are computed together.
 const GROUP: usize = 128;
 
-/// The Toffolis of a face of a plane of its own, of another face of a plane, and of a mesh's face and slot,
-/// in hundreds: the search of a component takes the cheaper way.
+/// Fewest faces of a component that is searched by its edges.
+const LEAST: usize = 4;
+
+/// Toffolis of a plane with one face, in hundreds: about 1,400 with its [face](ON_PLANE). Meshes are searched
+/// by their edges if that is cheaper for all of them together.
 const PLANE: usize = 10;
+/// Toffolis of a face of a plane, in hundreds.
 const ON_PLANE: usize = 4;
+/// Toffolis of a face and its edges, in hundreds.
 const BY_EDGES: usize = 3;
+/// Toffolis of a slot, in hundreds.
 const SLOT: usize = 29;
 
 /// The sides from which rays may meet a face.
@@ -75,7 +81,7 @@ struct MeshFace {
     edges: Vec<(usize, bool)>,
 }
 
-/// What slots look up, by face label.
+/// Columns that slots look up, by face label.
 #[derive(Debug, Default, PartialEq)]
 struct SlotTable {
     axes: Vec<u32>,
@@ -83,7 +89,7 @@ struct SlotTable {
     planes: Vec<[f64; 3]>,
     /// The number of the face's plane.
     numbers: Vec<u32>,
-    /// 1 if the face's front is met where the ray falls towards its plane.
+    /// Whether the face's front is met where the ray falls towards its plane: 1 or 0.
     along: Vec<u32>,
 }
 
@@ -96,6 +102,8 @@ pub(super) struct MeshStage<'a> {
     pub(super) eyes: &'a [DVec3],
     /// By face label: true if rays may go on beyond the face.
     pub(super) transmits: &'a [bool],
+    /// The direction of all rays of an orthographic camera.
+    pub(super) parallel: Option<DVec3>,
     /// One unit in the last place.
     pub(super) ulp: f64,
 }
@@ -105,12 +113,14 @@ pub(super) struct MeshStage<'a> {
 pub(super) struct MeshPlan {
     edges: Vec<Edge>,
     faces: Vec<MeshFace>,
-    /// Most faces that a line meets.
+    /// Number of slots: an estimate of the most faces that a line meets.
     slots: usize,
     table: SlotTable,
     /// True if all rays start at one eye, which the constants of the edges contain.
     from_eye: bool,
     reach: f64,
+    /// A bound on the distance between two points of the geometry.
+    farthest: f64,
 }
 
 /// The truth values of an edge: its number is not above 0, and not below 0.
@@ -161,7 +171,11 @@ impl MeshPlan {
         // An edge's reach is a distance if the direction has unit length.
         let length = cx.length(ray.direction);
         let direction = ray.direction.map(|part| cx.div(part, length, 1.0));
-        let ray = Ray { direction, ..*ray };
+        let ray = Ray {
+            direction,
+            t_max: self.farthest,
+            ..*ray
+        };
         self.hides(cx, &ray, length, hidden)
     }
 
@@ -197,28 +211,27 @@ impl MeshPlan {
     /// The sides on which the line of the ray passes each edge.
     fn sides<A: Arith>(&self, cx: &mut A, ray: &Ray<A>) -> Vec<Sides<A>> {
         let (o, d) = (ray.origin, ray.direction);
-        let across: Vector<A> = if self.from_eye {
-            d
-        } else {
-            [0, 1, 2].map(|k| {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        // The constants of rays from one eye contain the product.
+        let across: Vector<A> = [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            if self.from_eye {
+                cx.real(0.0)
+            } else {
                 math!(cx, o[i] * d[j] - o[j] * d[i])
-            })
-        };
+            }
+        });
         let mut sides = Vec::with_capacity(self.edges.len());
         for (number, group) in self.edges.chunks(GROUP).enumerate() {
             cx.enter(TracerPart::Edges(number));
             for edge in group {
                 let mut u = cx.real(0.0);
-                for k in 0..3 {
-                    let part = cx.scale(d[k], edge.moment[k]);
+                for (number, factor) in d.into_iter().zip(edge.moment) {
+                    let part = cx.scale(number, factor);
                     u = cx.add(u, part);
                 }
-                if !self.from_eye {
-                    for k in 0..3 {
-                        let part = cx.scale(across[k], edge.along[k]);
-                        u = cx.add(u, part);
-                    }
+                for (number, factor) in across.into_iter().zip(edge.along) {
+                    let part = cx.scale(number, factor);
+                    u = cx.add(u, part);
                 }
                 let (ahead, back) = (cx.real(self.reach), cx.real(-self.reach));
                 sides.push(Sides {
@@ -275,13 +288,24 @@ impl MeshPlan {
         let mut chosen: Vec<(usize, Facing)> = Vec::new();
         let mut cost = 0;
         for component in components {
-            let faces: Vec<usize> = component.iter().copied().filter(|&p| rest[p]).collect();
-            if faces.len() < 4 || !is_apart(geometry, &faces) {
+            let faces = component.iter().copied();
+            let mut faces: Vec<usize> = faces.filter(|&place| rest[place]).collect();
+            if faces.len() < LEAST {
                 continue;
             }
-            let facing = stage.facing(component);
-            cost += planes_of(geometry, &faces).len() * PLANE + faces.len() * ON_PLANE;
-            chosen.extend(faces.into_iter().map(|place| (place, facing)));
+            let planes = planes_of(geometry, &faces);
+            let (kept, lost): (Vec<u32>, Vec<u32>) = planes
+                .into_iter()
+                .partition(|&number| stage.is_apart(start, number, &faces));
+            if !lost.is_empty() {
+                let plane = |place: usize| geometry.plane_of[geometry.faces[place].label as usize];
+                faces.retain(|&place| lost.binary_search(&plane(place)).is_err());
+            }
+            cost += kept.len() * PLANE + faces.len() * ON_PLANE;
+            if faces.len() >= LEAST {
+                let facing = stage.facing(component);
+                chosen.extend(faces.into_iter().map(|place| (place, facing)));
+            }
         }
         chosen.sort_unstable_by_key(|(place, _)| *place);
         if cost <= chosen.len() * BY_EDGES + 3 * SLOT {
@@ -336,6 +360,7 @@ impl MeshPlan {
             table: SlotTable::new(geometry, chosen),
             from_eye: eye.is_some(),
             reach: REACH * stage.ulp,
+            farthest: 2.0 * geometry.radius(),
         }
     }
 
@@ -406,7 +431,7 @@ impl SlotTable {
         let mut labels: Vec<u32> = labels.collect();
         labels.sort_unstable();
         let mut table = Self::default();
-        // Labels of no face of a mesh are never looked up: they repeat the next face.
+        // Rows of other faces repeat the next face of a mesh. An empty slot reads row 0.
         let mut row = 0;
         for label in labels {
             let number = geometry.plane_of[label as usize];
@@ -435,30 +460,34 @@ fn planes_of(geometry: &StageGeometry, faces: &[usize]) -> Vec<u32> {
     planes
 }
 
-/// True if no other face covers one of `faces` (by place) or is at a lamp with it: distances on one
-/// plane, computed in two ways, could not be compared.
-fn is_apart(geometry: &StageGeometry, faces: &[usize]) -> bool {
-    let at_lamps = |&place: &usize| {
-        let face = &geometry.faces[place];
-        face.emits || face.hides_emitter || face.covers.is_some()
-    };
-    if faces.iter().any(at_lamps) {
-        return false;
-    }
-    planes_of(geometry, faces).into_iter().all(|number| {
-        let range = geometry.planes[number as usize].faces.clone();
-        let [first, last] =
-            [range.start, range.end].map(|end| faces.partition_point(|&place| place < end));
-        let own = &faces[first..last];
-        own.len() == range.len() || !covered(geometry, number as usize, own)
-    })
-}
-
 impl MeshStage<'_> {
+    /// True if `faces` (by place) of one plane may be searched by their edges.
+    ///
+    /// False if another face of the plane covers one of them, or if one is at a lamp: distances on one plane,
+    /// computed in two ways, could not be compared. False if the camera's rays start on the plane, which they
+    /// do not meet: in a slot, their distance is not exactly 0.
+    fn is_apart(&self, start: Start, number: u32, faces: &[usize]) -> bool {
+        let geometry = self.geometry;
+        let plane = &geometry.planes[number as usize];
+        let is_near = |eye: &DVec3| height(plane, *eye).abs() <= 8.0 * self.ulp;
+        if start == Start::Camera && self.eyes.iter().any(is_near) {
+            return false;
+        }
+        let [first, last] = [plane.faces.start, plane.faces.end]
+            .map(|end| faces.partition_point(|&place| place < end));
+        let own = &faces[first..last];
+        let at_lamps = |&place: &usize| {
+            let face = &geometry.faces[place];
+            face.emits || face.hides_emitter || face.covers.is_some()
+        };
+        let alone = own.len() == plane.faces.len();
+        !own.iter().any(at_lamps) && (alone || !covered(geometry, number as usize, own))
+    }
+
     /// The sides from which rays may meet the faces of a component (by place).
     ///
-    /// Rays that start outside a closed surface meet its outer side first. It is the front if the surface
-    /// encloses a volume above 0.
+    /// Rays that start outside a closed opaque surface meet its outer side first, if the surface does not cross
+    /// itself.
     fn facing(&self, component: &[usize]) -> Facing {
         let geometry = self.geometry;
         let label = |place: usize| geometry.faces[place].label as usize;
@@ -489,19 +518,10 @@ impl MeshStage<'_> {
         if !outside || geometry.balls.iter().any(cut) {
             return Facing::Both;
         }
-        let volume: f64 = component
-            .iter()
-            .map(|place| {
-                let corners = outline(place);
-                let fan = corners.windows(2).skip(1);
-                fan.map(|pair| corners[0].dot(pair[0].cross(pair[1])))
-                    .sum::<f64>()
-            })
-            .sum();
-        if volume > 0.0 {
-            Facing::Front
-        } else {
-            Facing::Back
+        match lines::outer_side(&component.iter().map(outline).collect::<Vec<_>>()) {
+            Some(true) => Facing::Front,
+            Some(false) => Facing::Back,
+            None => Facing::Both,
         }
     }
 }

@@ -136,6 +136,8 @@ pub(super) struct Planner<'a> {
     pub(super) eyes: &'a [DVec3],
     /// By face label: true if rays may go on beyond the face.
     pub(super) transmits: &'a [bool],
+    /// The direction of all rays of an orthographic camera.
+    pub(super) parallel: Option<DVec3>,
     /// By face label: its surface.
     pub(super) surface_of: &'a [u32],
     /// An eye within this distance of a plane may be on either side, or on the plane.
@@ -225,6 +227,7 @@ impl Planner<'_> {
             edges: self.edges,
             eyes: self.eyes,
             transmits: self.transmits,
+            parallel: self.parallel,
             ulp: self.ulp,
         };
         let mesh = MeshPlan::new(meshes, start, components, &on_inner_plane);

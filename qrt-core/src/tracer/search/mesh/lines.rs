@@ -151,6 +151,11 @@ impl Random {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Three numbers from 0 to 1.
+    fn vector(&mut self) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| self.unit()))
+    }
+
     /// A point of a convex polygon.
     fn point(&mut self, outline: &[DVec3]) -> DVec3 {
         let weights: Vec<f64> = outline.iter().map(|_| self.unit() + 1e-3).collect();
@@ -161,7 +166,7 @@ impl Random {
 }
 
 /// The number of slots for the faces of `plan`: the most faces that one of many lines may meet, and one more.
-/// The lines begin at the starts of rays, and pass through points and corners of the faces.
+/// The lines pass through starts of rays, or have the direction of parallel rays, and pass through points and corners of the faces.
 pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start) -> usize {
     let geometry = stage.geometry;
     let outline = |label: u32| &*geometry.corners[label as usize];
@@ -172,27 +177,80 @@ pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start
         .iter()
         .copied()
         .fold(DVec3::NEG_INFINITY, DVec3::max);
+    let starts = geometry.faces.len() + geometry.balls.len();
     let mut random = Random(0);
     let mut most = 0;
     for number in 0..LINES {
         let mut any = |count: usize| (random.next() % count as u64) as usize;
         let aimed = tree.outlines[any(tree.outlines.len())];
-        let left = &geometry.faces[any(geometry.faces.len())];
+        let left = any(starts);
         let through = if number % 4 == 0 {
             aimed[any(aimed.len())]
         } else {
             random.point(aimed)
         };
         let origin = match start {
-            Start::Camera => low + (high - low) * random.unit(),
-            Start::Surface => random.point(outline(left.label)),
+            Start::Camera => low + (high - low) * random.vector(),
+            Start::Surface => match geometry.faces.get(left) {
+                Some(face) => random.point(outline(face.label)),
+                None => {
+                    let ball = &geometry.balls[left - geometry.faces.len()];
+                    let away = (random.vector() - 0.5).normalize_or_zero();
+                    ball.centre + ball.radius * away
+                }
+            },
         };
-        let direction = (through - origin).normalize_or_zero();
+        let direction = match (start, stage.parallel) {
+            (Start::Camera, Some(parallel)) => parallel,
+            _ => through - origin,
+        };
+        let (origin, direction) = (through, direction.normalize_or_zero());
         if direction != DVec3::ZERO {
             most = most.max(tree.crossings(origin, direction));
         }
     }
     (most + 1).min(plan.faces.len())
+}
+
+/// Most pairs of a line and a face that [`outer_side`] tests.
+const MOST_TESTED: usize = 1 << 24;
+
+/// Finds the outer side of a closed surface: true if lines from outside meet fronts and backs in turn, fronts
+/// first; false if backs come first. `None` if neither holds for all of some lines: the surface crosses
+/// itself.
+pub(super) fn outer_side(outlines: &[&[DVec3]]) -> Option<bool> {
+    let lines = (MOST_TESTED / outlines.len().max(1)).clamp(32, 512);
+    let mut random = Random(0);
+    let mut side = None;
+    for _ in 0..lines {
+        let mut any = || outlines[(random.next() % outlines.len() as u64) as usize];
+        let aimed = [any(), any()];
+        let [through, from] = aimed.map(|outline| random.point(outline));
+        let direction = (through - from).normalize_or_zero();
+        let mut met: Vec<(f64, bool)> = Vec::new();
+        let mut is_clear = direction != DVec3::ZERO;
+        for outline in outlines {
+            let Some(front) = met_front(outline, through, direction) else {
+                continue;
+            };
+            let normal = (outline[1] - outline[0]).cross(outline[2] - outline[0]);
+            let slope = direction.dot(normal);
+            is_clear &= slope.abs() > 1e-6 * normal.length();
+            met.push(((outline[0] - through).dot(normal) / slope, front));
+        }
+        met.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // Lines along a face or past an edge have no clear order.
+        if !is_clear || met.windows(2).any(|pair| pair[1].0 - pair[0].0 < 1e-9) {
+            continue;
+        }
+        for (place, (_, front)) in met.iter().enumerate() {
+            let outer = *front == (place % 2 == 0);
+            if *side.get_or_insert(outer) != outer {
+                return None;
+            }
+        }
+    }
+    side
 }
 
 /// True if the closed surface of these outlines encloses the point, or passes near it: a line from the

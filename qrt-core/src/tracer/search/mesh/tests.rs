@@ -2,7 +2,7 @@
 
 use super::Facing;
 use crate::tracer::geometry::NO_FACE;
-use crate::tracer::ray::NearestSearch;
+use crate::tracer::ray::{NearestSearch, Ray};
 use crate::tracer::search::Search;
 use crate::tracer::search::tests::Chance;
 use crate::tracer::search::tests::circuit::Circuit;
@@ -73,7 +73,7 @@ fn star(points: usize, rings: usize) -> Triangles {
     let count = 2 * points;
     let at = |ring: usize, k: usize, side: f64| {
         let out = ring as f64 / rings as f64;
-        let far = out * if k % 2 == 0 { 0.9 } else { 0.35 };
+        let far = out * [0.9, 0.35][k % 2];
         let (sin, cos) = (TAU * (k % count) as f64 / count as f64).sin_cos();
         let bent = side * 0.3 * (1.0 - out * out);
         DVec3::new(far * cos + 0.03, bent, far * sin + 0.02)
@@ -305,4 +305,65 @@ fn rays_meet_the_faces_that_they_meet_in_f64() {
             }
         }
     }
+}
+
+#[test]
+fn shadows_fall_as_in_f64_from_near_and_far() {
+    // Directions are four times the inputs: longer than the distance at which a unit direction's ray ends.
+    const LONGER: f64 = 4.0;
+    let scene = scene(&moved(torus(12, 6), DVec3::new(0.5, 0.5, 0.5), 0.5));
+    let circuit = Circuit::new(&scene, 16, |search, cx, ray, nearest| {
+        let ray = Ray {
+            direction: ray.direction.map(|part| cx.scale(part, LONGER)),
+            t_max: 1.0,
+            ..*ray
+        };
+        let (none, all) = (cx.index(0), cx.truth(true));
+        let hidden = search.occluded(cx, &ray, none, all);
+        let (hides, far) = (cx.index(1), cx.index(0));
+        nearest.face = cx.select_index(hidden, hides, far);
+        nearest.distance = ray.direction[0];
+    });
+    let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
+    let faces = &stage.geometry().corners[6..];
+    let units = 65_536.0;
+    let mut chance = Chance(3);
+    let mut point = || DVec3::from_array([(); 3].map(|()| chance.between(-HALF, HALF)));
+    let (mut hidden, mut lit, mut long) = (0, 0, 0);
+    for _ in 0..4_000 {
+        let (from, to) = (point(), point());
+        let whole = |v: DVec3| v.to_array().map(|c| (c * units).round() as i64);
+        let ([ox, oy, oz], [dx, dy, dz]) = (whole(from), whole((to - from) / LONGER));
+        let exact = |v: [i64; 3]| DVec3::from_array(v.map(|c| c as f64 / units));
+        let (origin, direction) = (exact([ox, oy, oz]), LONGER * exact([dx, dy, dz]));
+        // Rays that pass near an edge, or end near a face, may fall on either side.
+        let of = |grown: f64| {
+            faces.iter().any(|face| {
+                let middle = face.iter().sum::<DVec3>() / face.len() as f64;
+                let face: Vec<DVec3> = face
+                    .iter()
+                    .map(|p| middle + (*p - middle) * grown)
+                    .collect();
+                let at = far(&face, origin, direction);
+                let slack = 0.01 * (grown - 1.0);
+                super::lines::met_front(&face, origin, direction).is_some()
+                    && -slack < at
+                    && at < 1.0 + slack
+            })
+        };
+        let inside = super::lines::encloses(faces.iter().map(|f| &f[..]), origin, 1e-3)
+            || super::lines::encloses(faces.iter().map(|f| &f[..]), to, 1e-3);
+        if inside || of(1.02) != of(0.98) {
+            continue;
+        }
+        let (found, _) = circuit.run([ox, oy, oz, dx, dy, dz]);
+        assert_eq!(found == 1, of(1.0), "{origin} {direction}");
+        hidden += usize::from(of(1.0));
+        lit += usize::from(!of(1.0));
+        long += usize::from(of(1.0) && direction.length() > 2.2);
+    }
+    assert!(
+        hidden > 50 && lit > 1_000 && long > 5,
+        "{hidden} {lit} {long}"
+    );
 }
