@@ -23,6 +23,7 @@ qrt! {
     scene Furnace from "scenes-yaml/furnace.yaml"
     scene Scoped from "tests/scenes/scoped.yaml"
     scene Lattice from "tests/scenes/lattice.yaml"
+    scene Ring from "tests/scenes/ring.yaml"
     scene Lit from "tests/scenes/lit.yaml"
 
     /// The scene that `Lit` reads from its file.
@@ -207,6 +208,7 @@ scenes! {
     of_the_floor_under_a_light: Floor at [5, 5];
     of_the_furnace: Furnace at [7, 7];
     of_a_circuit_that_uncomputes_early: Scoped at [3, 4];
+    of_a_ring_searched_by_its_edges: Ring at [3, 4];
     of_a_circuit_of_few_qubits: Few at [3, 4];
     of_the_product_lattice: Lattice at [3, 4];
     of_sampled_lamps: Lit at [3, 4];

@@ -340,8 +340,10 @@ impl<'a> Builder<'a> {
         !self.target.strategy.recomputes() || self.open.contains(&block)
     }
 
-    /// The style of an operation with this garbage. In groups of edges and in slots it is never in place: the
-    /// scope of their block undoes the garbage, and products of edges share their sums.
+    /// The style of an operation with this garbage.
+    ///
+    /// In groups of edges and in slots it is out of place: products of edges share their sums, and their block
+    /// is short. If the block is a scope, its end undoes the garbage; if not, the garbage stays.
     fn style(&self, garbage: Garbage) -> Style {
         let stage = Label::from_block(&self.blocks[self.block().index()]).stage;
         let is_short = matches!(stage, StageName::Edges(_) | StageName::Slot(_));

@@ -100,7 +100,8 @@ impl Strategy {
         runs_again: false,
     };
 
-    /// All parts but convex bodies are scopes, and operations leave no garbage.
+    /// All parts but convex bodies and meshes are scopes. Operations leave no garbage, except within groups of
+    /// edges and slots, which are scopes, and encoders.
     pub const SCOPED: Self = Self {
         scopes: ((1 << Scope::ALL.len()) - 1) & !(1 << Scope::Body as u16),
         lean: [true; 3],
