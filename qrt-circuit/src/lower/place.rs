@@ -2,8 +2,8 @@
 
 use super::super::{Gate, GateCircuit, Op, Program, Qubit, RegisterId};
 use super::Lowering;
-use super::figures::QuickMap;
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::convert::Infallible;
 
 /// The pool of free qubits, from which ancillas are allocated.
@@ -162,7 +162,7 @@ pub(super) fn canonical(op: &Op, width: impl Fn(RegisterId) -> u32) -> Shape {
 pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
     // Registers that are read and registers that are written share one numbering. Most operations name so
     // few that a search is quicker than a map.
-    let known: RefCell<(Vec<RegisterId>, QuickMap<RegisterId, usize>)> = RefCell::default();
+    let known: RefCell<(Vec<RegisterId>, HashMap<RegisterId, usize>)> = RefCell::default();
     let number = |id: RegisterId| {
         let (ids, places) = &mut *known.borrow_mut();
         let found = match places.is_empty() {
