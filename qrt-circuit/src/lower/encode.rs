@@ -14,7 +14,7 @@ impl Lowering {
                 let Some(&taken) = target.last() else {
                     return;
                 };
-                // Earlier bits can have taken only as many targets as there are earlier bits.
+                // Each earlier bit has taken one target at most.
                 let passes = if place > number {
                     let passed = self.garbage_bit();
                     self.and(arrives, Wire::qubit(taken), passed);

@@ -165,9 +165,10 @@ pub(super) fn numbered(op: &Op) -> (Op, Vec<RegisterId>) {
     let known: RefCell<(Vec<RegisterId>, HashMap<RegisterId, usize>)> = RefCell::default();
     let number = |id: RegisterId| {
         let (ids, places) = &mut *known.borrow_mut();
-        let found = match places.is_empty() {
-            true => ids.iter().position(|known| *known == id),
-            false => places.get(&id).copied(),
+        let found = if places.is_empty() {
+            ids.iter().position(|known| *known == id)
+        } else {
+            places.get(&id).copied()
         };
         let place = found.unwrap_or_else(|| {
             ids.push(id);

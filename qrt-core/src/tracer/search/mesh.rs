@@ -1,7 +1,7 @@
 //! The search of meshes by their edges, for numbers of a few bits.
 //!
-//! Let `o` be the start of a ray and `d` its direction. On which side of the edge from `a` to `b` its line
-//! passes is told by the sign of
+//! Let `o` be the start of a ray and `d` its direction. The sign of `U` says on which side of the edge from
+//! `a` to `b` the ray's line passes:
 //!
 //! ```text
 //! U = d.((a - o) x (b - o)) = d.m + (o x d).e,    e = b - a,  m = a x b
@@ -12,8 +12,8 @@
 //!
 //! - The two faces at an edge read one number, so a line passes neither between them nor through both.
 //! - At a corner, the edges' numbers are rounded apart: a line could pass between all faces there. So a
-//!   strip along each edge belongs to both of its faces ([`REACH`]). An edge is scaled by a power of two such that the greatest component of
-//!   `e` is at least 1/2: `U` is then about a distance.
+//!   strip along each edge belongs to both of its faces ([`REACH`]). An edge is scaled by a power of two
+//!   such that the greatest component of `e` is at least 1/2: `U` is then about a distance.
 //! - All edges multiply the same six numbers, `d` and `o x d`, by constants. Rays from one eye multiply
 //!   three, since `U = d.(m + e x o)`.
 //! - A line meets few faces. [`Arith::encode`] puts the first of them into slots, and a slot looks the
@@ -89,7 +89,7 @@ struct SlotTable {
     planes: Vec<[f64; 3]>,
     /// The number of the face's plane.
     numbers: Vec<u32>,
-    /// Whether the face's front is met where the ray falls towards its plane: 1 or 0.
+    /// 1 if a ray that falls towards the plane meets the face's front, else 0.
     along: Vec<u32>,
 }
 

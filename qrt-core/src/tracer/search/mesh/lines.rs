@@ -191,14 +191,15 @@ pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start
         };
         let origin = match start {
             Start::Camera => low + (high - low) * random.vector(),
-            Start::Surface => match geometry.faces.get(left) {
-                Some(face) => random.point(outline(face.label)),
-                None => {
+            Start::Surface => {
+                if let Some(face) = geometry.faces.get(left) {
+                    random.point(outline(face.label))
+                } else {
                     let ball = &geometry.balls[left - geometry.faces.len()];
                     let away = (random.vector() - 0.5).normalize_or_zero();
                     ball.centre + ball.radius * away
                 }
-            },
+            }
         };
         let direction = match (start, stage.parallel) {
             (Start::Camera, Some(parallel)) => parallel,
