@@ -1,8 +1,7 @@
 //! Costs and other figures of operations. Their gates are counted and not kept.
 
-use super::super::{Gate, Op, Program, RegisterId};
+use super::super::{Gate, Op, RegisterId};
 use super::place::{canonical, placed};
-use std::collections::HashMap;
 use std::iter::Sum;
 use std::ops::Add;
 
@@ -143,27 +142,4 @@ enum Clean {
 /// Returns the cost of an operation, or of its inverse, given the widths of its registers.
 pub fn cost(op: &Op, inverse: bool, width: impl Fn(RegisterId) -> u32) -> Cost {
     costs(op, width)[usize::from(inverse)]
-}
-
-/// Number of Toffolis of a program.
-pub fn toffoli(program: &Program) -> u64 {
-    tally(program).iter().map(|cost| cost.toffoli).sum()
-}
-
-/// Returns the cost of each instruction of a program.
-pub fn tally(program: &Program) -> Vec<Cost> {
-    let mut known: HashMap<u32, [Cost; 2]> = HashMap::new();
-    let instructions = program.instructions.iter();
-    instructions
-        .map(|instruction| {
-            let op = &program.ops[instruction.op as usize];
-            let costs = known.entry(instruction.op);
-            let costs = costs.or_insert_with(|| costs_of(op, program));
-            costs[usize::from(instruction.inverse)]
-        })
-        .collect()
-}
-
-fn costs_of(op: &Op, program: &Program) -> [Cost; 2] {
-    costs(op, |register| program.width(register))
 }

@@ -1,7 +1,7 @@
 //! Costs and numbers of qubits of operations, computed once for operations that are alike.
 
-use super::super::{Cores, Op, RegisterId};
-use super::cost::{OpFigures, counted};
+use super::super::{Cores, Instruction, Op, Program, RegisterId};
+use super::cost::{Cost, OpFigures, counted};
 use super::place::{Shape, canonical};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -32,6 +32,22 @@ pub struct KnownFigures {
     /// The index in `found` of the figures of each operation.
     places: QuickMap<Shape, usize>,
     found: Vec<OpFigures>,
+}
+
+/// Returns the cost of each instruction of a program.
+pub fn tally(program: &Program) -> Vec<Cost> {
+    let ops: Vec<&Op> = program.ops.iter().collect();
+    let width = |register| program.width(register);
+    let of_ops = KnownFigures::default().all(&ops, width, Cores::All);
+    let cost = |instruction: &Instruction| {
+        of_ops[instruction.op as usize].costs[usize::from(instruction.inverse)]
+    };
+    program.instructions.iter().map(cost).collect()
+}
+
+/// Number of Toffolis of a program.
+pub fn toffoli(program: &Program) -> u64 {
+    tally(program).iter().map(|cost| cost.toffoli).sum()
 }
 
 /// A hash map for trusted keys: no protection against chosen collisions.

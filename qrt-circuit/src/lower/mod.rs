@@ -41,8 +41,8 @@ mod tests;
 mod walk;
 mod wire;
 
-pub use cost::{Cost, OpFigures, cost, costs, tally, toffoli};
-pub use figures::KnownFigures;
+pub use cost::{Cost, OpFigures, cost, costs};
+pub use figures::{KnownFigures, tally, toffoli};
 #[doc(hidden)]
 pub use figures::{Quick, QuickMap};
 pub use ghosts::with_ghosts;

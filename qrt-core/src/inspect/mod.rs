@@ -30,7 +30,7 @@ use crate::oracle::{
 use crate::tracer::PixelClass;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::quantum::{Conjunction, CountingCircuit, Window};
-use qrt_circuit::{Cores, Instruction, Op, Program};
+use qrt_circuit::{Op, Program};
 use std::ops::Range;
 
 /// The names of the channels, in their order.
@@ -72,18 +72,12 @@ impl Inspection {
         let oracle = oracles.channel(name.channel, name.class)?;
         let whole = oracle.whole(0);
         let size = lower::size(&whole);
-        let ops: Vec<&Op> = whole.ops.iter().collect();
-        let width = |register| whole.width(register);
-        let of_ops = lower::KnownFigures::default().all(&ops, width, Cores::All);
-        let cost = |instruction: &Instruction| {
-            of_ops[instruction.op as usize].costs[usize::from(instruction.inverse)]
-        };
         Ok(Self {
             toffoli_depth: size.depth,
             qubits: size.qubits,
             in_use: size.in_use,
             layout: RegisterLayout::new(&whole),
-            costs: whole.instructions.iter().map(cost).collect(),
+            costs: lower::tally(&whole),
             name,
             pixel: None,
             strategy: oracles.strategy()?,

@@ -23,6 +23,7 @@
 mod balls;
 mod mesh;
 mod plan;
+mod planner;
 
 use super::convex::{self, Edges};
 use super::crossing::{AxisPermuted, rise, slope};
@@ -31,7 +32,8 @@ use super::intersect::{constants, meets, within};
 use super::polygon::Plane;
 use super::ray::{Hit, NearestSearch, Ray, Start};
 use super::{Arith, Stage, TracerPart};
-use plan::{Facet, Met, MetBound, Outer, Plan, Planner, Starts};
+use plan::{Facet, Met, MetBound, Outer, Plan, Starts};
+use planner::Planner;
 
 /// The greatest thickness of planes in the search for convex bodies, in stage units. Corners from files
 /// of single precision are off by this distance.

@@ -20,6 +20,7 @@
 //!   plane of its face up: one division a slot, and none a face.
 
 use super::Running;
+use super::planner::Planner;
 use crate::tracer::ball::StageBall;
 use crate::tracer::convex::{Edges, covered, height};
 use crate::tracer::crossing::{AxisPermuted, rise, slope};
@@ -91,21 +92,6 @@ struct SlotTable {
     numbers: Vec<u32>,
     /// 1 if a ray that falls towards the plane meets the face's front, else 0.
     along: Vec<u32>,
-}
-
-/// The facts about a stage that decide how its meshes are searched.
-#[derive(Clone, Copy)]
-pub(super) struct MeshStage<'a> {
-    pub(super) geometry: &'a StageGeometry,
-    pub(super) edges: &'a Edges,
-    /// The points where the camera's rays start, or the corners of the area that they start from.
-    pub(super) eyes: &'a [DVec3],
-    /// By face label: true if rays may go on beyond the face.
-    pub(super) transmits: &'a [bool],
-    /// The direction of all rays of an orthographic camera.
-    pub(super) parallel: Option<DVec3>,
-    /// One unit in the last place.
-    pub(super) ulp: f64,
 }
 
 /// The search of meshes, for rays with one kind of start.
@@ -279,12 +265,12 @@ impl MeshPlan {
     /// The meshes among `components`, each the places of faces that meet at edges. `rest` tells by place
     /// which faces nothing else tests.
     pub(super) fn new(
-        stage: MeshStage<'_>,
+        planner: &Planner<'_>,
         start: Start,
         components: &[Vec<usize>],
         rest: &[bool],
     ) -> Self {
-        let geometry = stage.geometry;
+        let geometry = planner.geometry;
         let mut chosen: Vec<(usize, Facing)> = Vec::new();
         let mut cost = 0;
         for component in components {
@@ -296,14 +282,14 @@ impl MeshPlan {
             let planes = planes_of(geometry, &faces);
             let (kept, lost): (Vec<u32>, Vec<u32>) = planes
                 .into_iter()
-                .partition(|&number| stage.is_apart(start, number, &faces));
+                .partition(|&number| planner.is_apart(start, number, &faces));
             if !lost.is_empty() {
                 let plane = |place: usize| geometry.plane_of[geometry.faces[place].label as usize];
                 faces.retain(|&place| lost.binary_search(&plane(place)).is_err());
             }
-            cost += kept.len() * PLANE + faces.len() * ON_PLANE;
             if faces.len() >= LEAST {
-                let facing = stage.facing(component);
+                cost += kept.len() * PLANE + faces.len() * ON_PLANE;
+                let facing = planner.facing(component);
                 chosen.extend(faces.into_iter().map(|place| (place, facing)));
             }
         }
@@ -312,26 +298,26 @@ impl MeshPlan {
             return Self::default();
         }
         let slots = {
-            let any = Self::with_faces(stage, Start::Surface, &chosen);
-            lines::most_crossings(&any, stage, start)
+            let any = Self::with_faces(planner, Start::Surface, &chosen);
+            lines::most_crossings(&any, planner, start)
         };
         if cost <= chosen.len() * BY_EDGES + slots * SLOT {
             return Self::default();
         }
         Self {
             slots,
-            ..Self::with_faces(stage, start, &chosen)
+            ..Self::with_faces(planner, start, &chosen)
         }
     }
 
-    fn with_faces(stage: MeshStage<'_>, start: Start, chosen: &[(usize, Facing)]) -> Self {
-        let geometry = stage.geometry;
-        let eye = match stage.eyes {
+    fn with_faces(planner: &Planner<'_>, start: Start, chosen: &[(usize, Facing)]) -> Self {
+        let geometry = planner.geometry;
+        let eye = match planner.eyes {
             [eye] if start == Start::Camera => Some(*eye),
             _ => None,
         };
         let ends_of = |place: usize| {
-            let corners = &stage.edges.corners[place];
+            let corners = &planner.edges.corners[place];
             (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
         };
         let in_order = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
@@ -339,7 +325,7 @@ impl MeshPlan {
         let mut all: Vec<[u32; 2]> = all.map(in_order).collect();
         all.sort_unstable();
         all.dedup();
-        let edge = |ends| (ends, Edge::new(stage.edges.ends(ends), eye, stage.ulp));
+        let edge = |ends| (ends, Edge::new(planner.edges.ends(ends), eye, planner.ulp));
         let mut edges: Vec<([u32; 2], Edge)> = all.into_iter().map(edge).collect();
         edges.sort_by(|(_, a), (_, b)| a.cmp_size(b));
         let numbers: HashMap<[u32; 2], usize> = (0..)
@@ -359,7 +345,7 @@ impl MeshPlan {
             slots: 0,
             table: SlotTable::new(geometry, chosen),
             from_eye: eye.is_some(),
-            reach: REACH * stage.ulp,
+            reach: REACH * planner.ulp,
             farthest: 2.0 * geometry.radius(),
         }
     }
@@ -460,7 +446,7 @@ fn planes_of(geometry: &StageGeometry, faces: &[usize]) -> Vec<u32> {
     planes
 }
 
-impl MeshStage<'_> {
+impl Planner<'_> {
     /// True if `faces` (by place) of one plane may be searched by their edges.
     ///
     /// False if another face of the plane covers one of them, or if one is at a lamp: distances on one plane,
@@ -500,12 +486,7 @@ impl MeshStage<'_> {
         let corners = || component.iter().flat_map(outline).copied();
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let eye_low = self.eyes.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let eye_high = self
-            .eyes
-            .iter()
-            .copied()
-            .fold(DVec3::NEG_INFINITY, DVec3::max);
+        let [eye_low, eye_high] = self.eye_box();
         let apart =
             (eye_low.cmpgt(high + 2.0 * self.ulp) | low.cmpgt(eye_high + 2.0 * self.ulp)).any();
         let outside = apart

@@ -1,10 +1,10 @@
 //! The tests of a search, for rays with one kind of start: outer planes, bodies, and the other planes.
 
 use super::balls::BallPlan;
-use super::mesh::{MeshPlan, MeshStage};
+use super::mesh::MeshPlan;
+use super::planner::Planner;
 use crate::tracer::ball::StageBall;
-use crate::tracer::convex::{Body, Bound, Edges, covered, height};
-use crate::tracer::geometry::StageGeometry;
+use crate::tracer::convex::{Body, Bound, covered, height};
 use crate::tracer::polygon::{EdgeTest, Plane, edge_test};
 use crate::tracer::ray::Start;
 use glam::DVec3;
@@ -129,21 +129,6 @@ impl Facet {
     }
 }
 
-pub(super) struct Planner<'a> {
-    pub(super) geometry: &'a StageGeometry,
-    pub(super) edges: &'a Edges,
-    /// The points where the camera's rays start, or the corners of the area that they start from.
-    pub(super) eyes: &'a [DVec3],
-    /// By face label: true if rays may go on beyond the face.
-    pub(super) transmits: &'a [bool],
-    /// The direction of all rays of an orthographic camera.
-    pub(super) parallel: Option<DVec3>,
-    /// By face label: its surface.
-    pub(super) surface_of: &'a [u32],
-    /// An eye within this distance of a plane may be on either side, or on the plane.
-    pub(super) ulp: f64,
-}
-
 impl Planner<'_> {
     fn label(&self, place: usize) -> u32 {
         self.geometry.faces[place].label
@@ -222,15 +207,7 @@ impl Planner<'_> {
                 rest[place] && outer_sides[plane].is_none()
             })
             .collect();
-        let meshes = MeshStage {
-            geometry: self.geometry,
-            edges: self.edges,
-            eyes: self.eyes,
-            transmits: self.transmits,
-            parallel: self.parallel,
-            ulp: self.ulp,
-        };
-        let mesh = MeshPlan::new(meshes, start, components, &on_inner_plane);
+        let mesh = MeshPlan::new(self, start, components, &on_inner_plane);
         let mut in_mesh = vec![false; self.geometry.plane_of.len()];
         mesh.labels()
             .for_each(|label| in_mesh[label as usize] = true);

@@ -1,7 +1,8 @@
 //! Lines through meshes, in `f64`: the number of faces that a line meets.
 
-use super::{ERROR, Facing, MeshPlan, MeshStage};
+use super::{ERROR, Facing, MeshPlan};
 use crate::tracer::ray::Start;
+use crate::tracer::search::planner::Planner;
 use glam::DVec3;
 use qrt_scene::sampling::pixel_shift;
 
@@ -166,17 +167,13 @@ impl Random {
 }
 
 /// The number of slots for the faces of `plan`: the most faces that one of many lines may meet, and one more.
-/// The lines pass through starts of rays, or have the direction of parallel rays, and pass through points and corners of the faces.
-pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start) -> usize {
-    let geometry = stage.geometry;
+/// The lines pass through points and corners of the faces, and through starts of rays. Lines of an
+/// orthographic camera have its direction.
+pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Start) -> usize {
+    let geometry = planner.geometry;
     let outline = |label: u32| &*geometry.corners[label as usize];
-    let tree = Tree::new(plan, plan.labels().map(outline).collect(), stage.ulp);
-    let low = stage.eyes.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = stage
-        .eyes
-        .iter()
-        .copied()
-        .fold(DVec3::NEG_INFINITY, DVec3::max);
+    let tree = Tree::new(plan, plan.labels().map(outline).collect(), planner.ulp);
+    let [low, high] = planner.eye_box();
     let starts = geometry.faces.len() + geometry.balls.len();
     let mut random = Random(0);
     let mut most = 0;
@@ -201,7 +198,7 @@ pub(super) fn most_crossings(plan: &MeshPlan, stage: MeshStage<'_>, start: Start
                 }
             }
         };
-        let direction = match (start, stage.parallel) {
+        let direction = match (start, planner.parallel) {
             (Start::Camera, Some(parallel)) => parallel,
             _ => through - origin,
         };

@@ -111,9 +111,14 @@ fn moved(triangles: Triangles, by: DVec3, scale: f64) -> Triangles {
 }
 
 fn scene(triangles: &Triangles) -> ValidScene {
-    let mut text = String::from(
-        "name: mesh\nfilm: { width: 1, height: 1 }\ncamera: { perspective: { eye: [0, 3, 5], target: [0, 0, 0], \
-         vfov: 40 } }\nmaterials: { matte: { lambertian: { albedo: 0.5 } } }\ngeometry:\n",
+    scene_from(triangles, DVec3::new(0.0, 3.0, 5.0))
+}
+
+fn scene_from(triangles: &Triangles, eye: DVec3) -> ValidScene {
+    let eye = eye.to_array();
+    let mut text = format!(
+        "name: mesh\nfilm: {{ width: 1, height: 1 }}\ncamera: {{ perspective: {{ eye: {eye:?}, target: [0, \
+         0.9, 0], vfov: 40 }} }}\nmaterials: {{ matte: {{ lambertian: {{ albedo: 0.5 }} }} }}\ngeometry:\n",
     );
     // A room around the mesh: rays start within its walls.
     for (axis, side) in (0..6).map(|k| (k / 2, [HALF, -HALF][k % 2])) {
@@ -366,4 +371,61 @@ fn shadows_fall_as_in_f64_from_near_and_far() {
         hidden > 50 && lit > 1_000 && long > 5,
         "{hidden} {lit} {long}"
     );
+}
+
+#[test]
+fn a_face_that_is_met_on_all_paths_is_found() {
+    let scene = scene(&torus(12, 6));
+    let circuit = Circuit::new(&scene, 16, |_, cx, ray, nearest| {
+        let marked = [(false, 3), (true, 2), (true, 7)];
+        let marked = marked.map(|(holds, number)| (cx.truth(holds), number));
+        let (none, all) = (cx.index(NO_FACE), cx.encode(&marked, 2));
+        let (found, face) = all[1];
+        nearest.face = cx.select_index(found, face, none);
+        nearest.distance = ray.direction[0];
+    });
+    assert_eq!(circuit.run([0; 6]).0, 7);
+}
+
+#[test]
+fn a_camera_on_a_face_does_not_search_it() {
+    let faces = waves(14);
+    let eye = faces[40].iter().sum::<DVec3>() / 3.0;
+    let with_eye = |eye: DVec3| {
+        let stage = Stage::<3>::rgb(&scene_from(&faces, eye), PixelClass::MayMeetLamp);
+        let search = Search::new(&stage, 1.0 / 65_536.0);
+        let label = 6 + 40;
+        [&search.camera, &search.surfaces].map(|plan| plan.mesh.labels().any(|own| own == label))
+    };
+    assert_eq!(with_eye(eye), [false, true]);
+    assert_eq!(with_eye(eye + 0.01 * DVec3::Y), [true, true]);
+}
+
+/// A prism over a polygon that crosses itself: closed, of a volume above 0, and met from behind first.
+#[test]
+fn surfaces_that_cross_themselves_have_no_outer_side() {
+    let rim = [[-1.0, -0.6], [1.0, 1.0], [1.0, -1.0], [-1.0, 0.6]];
+    let at = |k: usize, z: f64| DVec3::new(rim[k % 4][0], rim[k % 4][1], z);
+    let mut outlines = vec![
+        vec![at(0, 1.0), at(1, 1.0), at(2, 1.0)],
+        vec![at(0, 1.0), at(2, 1.0), at(3, 1.0)],
+        vec![at(2, -1.0), at(1, -1.0), at(0, -1.0)],
+        vec![at(3, -1.0), at(2, -1.0), at(0, -1.0)],
+    ];
+    outlines.extend((0..4).map(|k| vec![at(k, -1.0), at(k + 1, -1.0), at(k + 1, 1.0), at(k, 1.0)]));
+    let side = |outlines: &[Vec<DVec3>]| {
+        let outlines: Vec<&[DVec3]> = outlines.iter().map(Vec::as_slice).collect();
+        super::lines::outer_side(&outlines)
+    };
+    assert_eq!(side(&outlines), None);
+    let of = |triangles: Triangles| {
+        let outlines: Vec<Vec<DVec3>> = triangles.iter().map(|face| face.to_vec()).collect();
+        side(&outlines)
+    };
+    assert_eq!(of(knot(48, 6)), of(torus(16, 8)));
+    assert_eq!(
+        of(turned(torus(16, 8))),
+        of(torus(16, 8)).map(|front| !front)
+    );
+    assert!(of(torus(16, 8)).is_some());
 }
