@@ -30,7 +30,6 @@ use crate::tracer::vector::Vector;
 use crate::tracer::{Arith, TracerPart};
 use glam::DVec3;
 use std::cmp::Ordering;
-use std::collections::HashMap;
 
 mod lines;
 
@@ -325,19 +324,21 @@ impl MeshPlan {
         let mut all: Vec<[u32; 2]> = all.map(in_order).collect();
         all.sort_unstable();
         all.dedup();
-        let edge = |ends| (ends, Edge::new(planner.edges.ends(ends), eye, planner.ulp));
-        let mut edges: Vec<([u32; 2], Edge)> = all.into_iter().map(edge).collect();
+        let new = |&ends: &[u32; 2]| Edge::new(planner.edges.ends(ends), eye, planner.ulp);
+        let mut edges: Vec<(usize, Edge)> = all.iter().map(new).enumerate().collect();
         edges.sort_by(|(_, a), (_, b)| a.cmp_size(b));
-        let numbers: HashMap<[u32; 2], usize> = (0..)
-            .zip(&edges)
-            .map(|(number, (ends, _))| (*ends, number))
-            .collect();
+        let mut numbers = vec![0; edges.len()];
+        for (number, (place, _)) in edges.iter().enumerate() {
+            numbers[*place] = number;
+        }
+        let number = |[a, b]: [u32; 2]| {
+            let place = all.binary_search(&in_order([a, b]));
+            (numbers[place.unwrap_or_else(|place| place)], a > b)
+        };
         let face = |&(place, facing): &(usize, Facing)| MeshFace {
             label: geometry.faces[place].label,
             facing,
-            edges: ends_of(place)
-                .map(|[a, b]| (numbers[&in_order([a, b])], a > b))
-                .collect(),
+            edges: ends_of(place).map(number).collect(),
         };
         Self {
             faces: chosen.iter().map(face).collect(),
@@ -509,16 +510,16 @@ impl Planner<'_> {
 
 /// True if each edge of the component's faces has two of them, which have it in opposite directions.
 fn is_closed(edges: &Edges, component: &[usize]) -> bool {
-    let mut directions: HashMap<[u32; 2], [u32; 2]> = HashMap::new();
+    let mut directed: Vec<[u32; 2]> = Vec::new();
     for &place in component {
         let corners = &edges.corners[place];
-        for (k, &a) in corners.iter().enumerate() {
-            let b = corners[(k + 1) % corners.len()];
-            let count = directions.entry([a.min(b), a.max(b)]).or_default();
-            count[usize::from(a > b)] += 1;
-        }
+        let next = corners.iter().cycle().skip(1);
+        directed.extend(corners.iter().zip(next).map(|(&a, &b)| [a, b]));
     }
-    directions.values().all(|&count| count == [1, 1])
+    directed.sort_unstable();
+    let twice = directed.windows(2).any(|pair| pair[0] == pair[1]);
+    let turned = |&[a, b]: &[u32; 2]| directed.binary_search(&[b, a]).is_ok();
+    !twice && directed.iter().all(turned)
 }
 
 #[cfg(test)]

@@ -7,7 +7,10 @@ use glam::DVec3;
 use qrt_scene::sampling::pixel_shift;
 
 /// Number of lines that are tried.
-const LINES: u64 = 1 << 14;
+const LINES: u64 = 1 << 12;
+
+/// Number of slots beyond the most faces that one of the lines may meet.
+const SPARE: usize = 2;
 
 /// Faces of a leaf of the tree.
 const LEAF: usize = 4;
@@ -166,7 +169,7 @@ impl Random {
     }
 }
 
-/// The number of slots for the faces of `plan`: the most faces that one of many lines may meet, and one more.
+/// The number of slots for the faces of `plan`: [`SPARE`] more than the most that one of many lines may meet.
 /// The lines pass through points and corners of the faces, and through starts of rays. Lines of an
 /// orthographic camera have its direction.
 pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Start) -> usize {
@@ -207,7 +210,7 @@ pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Star
             most = most.max(tree.crossings(origin, direction));
         }
     }
-    (most + 1).min(plan.faces.len())
+    (most + SPARE).min(plan.faces.len())
 }
 
 /// Most pairs of a line and a face that [`outer_side`] tests.
@@ -217,7 +220,7 @@ const MOST_TESTED: usize = 1 << 24;
 /// first; false if backs come first. `None` if neither holds for all of some lines: the surface crosses
 /// itself.
 pub(super) fn outer_side(outlines: &[&[DVec3]]) -> Option<bool> {
-    let lines = (MOST_TESTED / outlines.len().max(1)).clamp(32, 512);
+    let lines = (MOST_TESTED / outlines.len().max(1)).clamp(32, 128);
     let mut random = Random(0);
     let mut side = None;
     for _ in 0..lines {
