@@ -37,7 +37,7 @@ fn used(folder: &Folder, code: i32, arguments: &[&str]) -> (Used, String) {
 }
 
 #[test]
-#[ignore = "two minutes or three: the circuit of 1,538 faces is compiled for each of four commands"]
+#[ignore = "half a minute: the circuit of 1,538 faces is compiled for each of four commands"]
 fn the_knot_is_verified_and_run_gate_by_gate_in_a_gigabyte() {
     let folder = Folder::new();
     let knot = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/knot.yaml");
