@@ -52,9 +52,14 @@ def as_text(notebook):
             lines += ["# %% [markdown]", *(f"# {line}".rstrip() for line in source), ""]
             continue
         lines += ["# %%", *source]
+        shown = ""
         for output in cell.outputs:
-            shown = output.get("text") or output.get("data", {}).get("text/plain", "")
-            lines += [f"#> {line}" for line in shown.splitlines()]
+            if output.output_type == "stream":
+                # A kernel may send one line in two messages.
+                shown += output.text
+            elif text := output.get("data", {}).get("text/plain"):
+                shown += f"{text}\n"
+        lines += [f"#> {line}" for line in shown.splitlines()]
         lines.append("")
     return "\n".join(lines)
 

@@ -39,6 +39,7 @@ pub mod random;
 mod strata;
 #[cfg(test)]
 mod tests;
+mod vectorized;
 
 pub(crate) use angle::Angle;
 pub use comparator::{Comparators, MAX_COMPARATOR_BITS};

@@ -20,6 +20,7 @@
 //! eigenvalues, whose distances from their poles then have 106 bits.
 
 use crate::double::{self, Double};
+use crate::vectorized::vectorized;
 use qrt_circuit::quantum::LevelPhases;
 use std::f64::consts::PI;
 
@@ -142,7 +143,10 @@ impl<'a> MeanSignal<'a> {
         let angle = |factor: f64| -> (Vec<f64>, Vec<f64>) {
             let angles = self.groups.iter().map(|g| g.word as f64 * unit * factor);
             angles
-                .map(|angle| (libm::cos(angle), libm::sin(angle)))
+                .map(|angle| {
+                    let (sine, cosine) = libm::sincos(angle);
+                    (cosine, sine)
+                })
                 .unzip()
         };
         let (half, whole) = (angle(1.0), angle(2.0));
@@ -153,11 +157,16 @@ impl<'a> MeanSignal<'a> {
         if k == 0 {
             return state;
         }
-        state.turn(&half);
-        for left in (0..k).rev() {
-            state.reflect(&psi);
-            state.turn(if left > 0 { &whole } else { &half });
-        }
+        vectorized(
+            #[inline(always)]
+            || {
+                state.turn(&half);
+                for left in (0..k).rev() {
+                    state.reflect(&psi);
+                    state.turn(if left > 0 { &whole } else { &half });
+                }
+            },
+        );
         state
     }
 
@@ -359,6 +368,7 @@ fn cotangent(angle: Double) -> Double {
 }
 
 impl MeanState {
+    #[inline(always)]
     fn turn(&mut self, (cosines, sines): &(Vec<f64>, Vec<f64>)) {
         let parts = self.re.iter_mut().zip(&mut self.im);
         for ((re, im), (c, s)) in parts.zip(cosines.iter().zip(sines)) {
@@ -366,6 +376,7 @@ impl MeanState {
         }
     }
 
+    #[inline(always)]
     fn reflect(&mut self, psi: &[f64]) {
         let mean = |part: &[f64]| 2.0 * dot(part, psi);
         let (re, im) = (mean(&self.re), mean(&self.im));
@@ -378,7 +389,8 @@ impl MeanState {
 }
 
 /// A scalar product in eight sums, which a processor adds side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+#[inline(always)]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (a, b) = (a.as_chunks::<8>(), b.as_chunks::<8>());
     for (a, b) in a.0.iter().zip(b.0) {

@@ -12,6 +12,7 @@
 mod adaptive;
 mod choice;
 mod depth;
+mod elementary;
 mod mean;
 mod phase_mean;
 mod posterior;

@@ -6,6 +6,7 @@ use super::unbiased::{self, Evidence};
 use crate::estimators::id_bits;
 use crate::estimators::interval::credible_content;
 use crate::estimators::{Device, Estimate, Noise, Usage};
+use crate::vectorized::vectorized;
 use std::f64::consts::PI;
 
 /// Points with less than this mass are negligible. A cell is dropped if all its points are.
@@ -57,11 +58,14 @@ pub(super) struct Posterior {
     deviations: Vec<f64>,
     /// The posterior with the square root of the likelihood.
     tempered: Tempered,
-    /// `cos 2 pi theta` of each point, if there is noise.
+    /// `cos 2 pi theta` of each point.
     plain: Vec<f64>,
     mean: f64,
     variance: f64,
+    /// The likelihood of a shot, as [`Posterior::look_at`] left it.
     cosines: Vec<f64>,
+    /// The likelihood of the shot chosen so far, and its `2k + 1`; 0 if there is none.
+    chosen: (u64, Vec<f64>),
 }
 
 /// The posterior in which every shot counts half, for the choice of query depths.
@@ -80,6 +84,7 @@ struct Tempered {
 }
 
 impl Tempered {
+    #[inline(always)]
     fn update(&mut self, mass: &[f64], prior: &[f64], deviations: &[f64]) {
         self.mass.clear();
         self.mass.extend(
@@ -120,6 +125,7 @@ impl Posterior {
             mean: 0.0,
             variance: 0.0,
             cosines: Vec::new(),
+            chosen: (0, Vec::new()),
         };
         posterior.recompute();
         posterior
@@ -187,22 +193,14 @@ impl Posterior {
         if self.tempered.variance <= 0.0 {
             return 1.0;
         }
-        self.support.cosines(2 * iterations + 1, &mut self.cosines);
-        let intact = self.intact(iterations);
-        self.blend(intact);
-        let mut sums = [[0.0; support::LANES]; 2];
-        let terms = (self.tempered.mass.chunks(support::LANES))
-            .zip(self.tempered.deviations.chunks(support::LANES))
-            .zip(self.cosines.chunks(support::LANES));
-        for ((mass, deviations), cosines) in terms {
-            for (lane, ((m, d), c)) in mass.iter().zip(deviations).zip(cosines).enumerate() {
-                let t = m * c;
-                sums[0][lane] += t;
-                sums[1][lane] += t * d;
-            }
-        }
-        let even = sums[0].iter().sum::<f64>();
-        let odd = sums[1].iter().sum::<f64>();
+        self.look_at(2 * iterations + 1, self.intact(iterations));
+        let Tempered {
+            mass, deviations, ..
+        } = &self.tempered;
+        let [even, odd] = vectorized(
+            #[inline(always)]
+            || products(mass, deviations, &self.cosines),
+        );
         let spread = (1.0 - even * even).max(f64::MIN_POSITIVE);
         (1.0 - odd * odd / (spread * self.tempered.variance)).clamp(0.0, 1.0)
     }
@@ -242,6 +240,7 @@ impl Posterior {
         }
         let kept: Vec<bool> = self.mass.chunks(width).map(held).collect();
         self.support.retain(&kept);
+        self.chosen.0 = 0;
         for values in [&mut self.mass, &mut self.prior, &mut self.plain] {
             let mut chunk = 0..values.len();
             values.retain(|_| chunk.next().is_some_and(|index| kept[index / width]));
@@ -279,11 +278,8 @@ impl Posterior {
     fn recompute(&mut self) {
         self.prior = self.support.prior(self.before, self.total);
         let mut mass = self.prior.clone();
-        if self.noise != Noise::NONE {
-            let mut plain = std::mem::take(&mut self.plain);
-            self.support.cosines(1, &mut plain);
-            self.plain = plain;
-        }
+        self.support.cosines(1, &mut self.plain);
+        self.chosen.0 = 0;
         for index in 0..self.shots.len() {
             self.multiply(self.shots[index], &mut mass);
             if index % FACTORS == FACTORS - 1 {
@@ -296,21 +292,39 @@ impl Posterior {
 
     /// Multiplies `mass` by the likelihood of `shots`, up to a common factor.
     fn multiply(&mut self, shots: Shots, mass: &mut [f64]) {
-        self.support.cosines(shots.multiple, &mut self.cosines);
-        let intact = shots.intact;
-        self.blend(intact);
+        if self.chosen.0 == shots.multiple {
+            std::mem::swap(&mut self.cosines, &mut self.chosen.1);
+        } else {
+            self.look_at(shots.multiple, shots.intact);
+        }
+        self.chosen.0 = 0;
         if shots.good + shots.bad == 1 {
             let sign = if shots.good == 1 { -0.5 } else { 0.5 };
-            for (mass, cosine) in mass.iter_mut().zip(&self.cosines) {
-                *mass *= (0.5 + sign * cosine).max(UNLIKELIEST);
-            }
+            let cosines = &self.cosines;
+            vectorized(
+                #[inline(always)]
+                || {
+                    for (mass, cosine) in mass.iter_mut().zip(cosines) {
+                        *mass *= (0.5 + sign * cosine).max(UNLIKELIEST);
+                    }
+                },
+            );
             return;
         }
         multiply_many(shots, &self.cosines, mass);
     }
 
-    /// Mixes the cosines with those of a destroyed state, which is good with probability S/N.
-    fn blend(&mut self, intact: f64) {
+    /// Keeps the likelihood of the shot that was last looked at, for when it is made.
+    pub(super) fn keep(&mut self, iterations: u64) {
+        self.chosen.0 = 2 * iterations + 1;
+        std::mem::swap(&mut self.cosines, &mut self.chosen.1);
+    }
+
+    /// Sets the cosines to `1 - 2 P(good)` of a shot.
+    ///
+    /// Noise mixes them with those of a destroyed state, which is good with probability S/N.
+    fn look_at(&mut self, multiple: u64, intact: f64) {
+        self.support.cosines(multiple, &mut self.cosines);
         if intact < 1.0 {
             for (cosine, plain) in self.cosines.iter_mut().zip(&self.plain) {
                 *cosine = intact * *cosine + (1.0 - intact) * plain;
@@ -319,11 +333,21 @@ impl Posterior {
     }
 
     fn summarise(&mut self) {
+        self.support.places(&mut self.deviations);
+        vectorized(
+            #[inline(always)]
+            || self.set_moments(),
+        );
+    }
+
+    /// Makes the masses add up to 1, and sets moments and [`Tempered`] from them and the places of
+    /// points.
+    #[inline(always)]
+    fn set_moments(&mut self) {
         let scale = 1.0 / sum(&self.mass, &self.mass, |mass, _| mass);
         for mass in &mut self.mass {
             *mass *= scale;
         }
-        self.support.places(&mut self.deviations);
         let mean = sum(&self.mass, &self.deviations, |mass, place| mass * place);
         for deviation in &mut self.deviations {
             *deviation -= mean;
@@ -337,11 +361,10 @@ impl Posterior {
     }
 
     /// The variance of the fraction of good indices, `(1 - cos 2 pi theta)/2`.
-    pub(super) fn amplitude_variance(&mut self) -> f64 {
-        self.support.cosines(1, &mut self.cosines);
-        let mean = sum(&self.mass, &self.cosines, |mass, cosine| mass * cosine);
+    pub(super) fn amplitude_variance(&self) -> f64 {
+        let mean = sum(&self.mass, &self.plain, |mass, cosine| mass * cosine);
         let square = |mass: f64, cosine: f64| mass * (cosine - mean) * (cosine - mean);
-        0.25 * sum(&self.mass, &self.cosines, square)
+        0.25 * sum(&self.mass, &self.plain, square)
     }
 
     /// The mean fraction of good indices.
@@ -455,8 +478,32 @@ impl Posterior {
     }
 }
 
+/// The sums of `mass cosine` and of `mass deviation cosine`, in parallel sums, one per lane.
+#[inline(always)]
+fn products(mass: &[f64], deviations: &[f64], cosines: &[f64]) -> [f64; 2] {
+    let (mut even, mut odd) = ([0.0; support::LANES], [0.0; support::LANES]);
+    let (masses, rest_of_masses) = mass.as_chunks::<{ support::LANES }>();
+    let (deviations, rest_of_deviations) = deviations.as_chunks::<{ support::LANES }>();
+    let (cosines, rest_of_cosines) = cosines.as_chunks::<{ support::LANES }>();
+    for ((mass, deviation), cosine) in masses.iter().zip(deviations).zip(cosines) {
+        let terms: [f64; support::LANES] = std::array::from_fn(|lane| mass[lane] * cosine[lane]);
+        for lane in 0..support::LANES {
+            even[lane] += terms[lane];
+        }
+        for lane in 0..support::LANES {
+            odd[lane] += terms[lane] * deviation[lane];
+        }
+    }
+    let rest = rest_of_masses.iter().zip(rest_of_deviations);
+    for (lane, ((mass, deviation), cosine)) in rest.zip(rest_of_cosines).enumerate() {
+        even[lane] += mass * cosine;
+        odd[lane] += mass * cosine * deviation;
+    }
+    [even, odd].map(|sums| sums.iter().sum())
+}
+
 /// Sums `term` over pairs of numbers, in parallel sums, one per lane.
-#[inline]
+#[inline(always)]
 fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     let mut sums = [0.0; support::LANES];
     let (a, rest_a) = a.as_chunks::<{ support::LANES }>();

@@ -1,7 +1,9 @@
 //! The points that hold a posterior: a grid of angles, from coarse to fine, or integers.
 
+use super::elementary::{fifth_root, sincos};
 use crate::Angle;
 use crate::estimators::turns::amplitude;
+use crate::vectorized::vectorized;
 
 /// Number of points of a panel.
 pub(super) const LANES: usize = 8;
@@ -198,11 +200,17 @@ impl Support {
                 integers.iter().map(mass).collect()
             }
             Self::Grid { level, panels } => {
+                // In the angle, the density is the sine to this power, -4/5.
                 let slope = 2.0 * POWER - 1.0;
-                let mut prior = Vec::new();
-                self.turns(1, |_, sine| {
-                    prior.extend(sine.map(|sine| libm::pow(sine, slope)));
-                });
+                let to_slope = |sine: f64| {
+                    let square = fifth_root(sine) * fifth_root(sine);
+                    1.0 / (square * square)
+                };
+                let mut prior = Vec::with_capacity(panels.len() * LANES);
+                vectorized(
+                    #[inline(always)]
+                    || self.turns(1, |_, sine| prior.extend(sine.map(to_slope))),
+                );
                 // Ratio of the first cell's mass to that of its midpoint.
                 let end = libm::exp2(slope) / (2.0 * POWER);
                 if panels.first() == Some(&0) {
@@ -266,40 +274,51 @@ impl Support {
                 (integers.iter()).map(|&(_, theta)| turned(theta.wrapping_mul(multiple)).0),
             ),
             Self::Grid { panels, .. } => {
-                cosines.reserve(panels.len() * LANES);
-                self.turns(multiple, |cosine, _| cosines.extend_from_slice(cosine));
+                cosines.resize(panels.len() * LANES, 0.0);
+                let mut panels = cosines.as_chunks_mut().0.iter_mut();
+                vectorized(
+                    #[inline(always)]
+                    || {
+                        self.turns(multiple, |cosines, _| {
+                            if let Some(panel) = panels.next() {
+                                *panel = *cosines;
+                            }
+                        });
+                    },
+                );
             }
         }
     }
 
     /// Passes `cos(2 m pi theta)` and `sin(2 m pi theta)` of each panel of a grid to `panel_of`.
+    #[inline(always)]
     fn turns(&self, multiple: u64, mut panel_of: impl FnMut(&[f64; LANES], &[f64; LANES])) {
         let Self::Grid { level, panels } = self else {
             return;
         };
-        let step = multiple.wrapping_mul(cell(*level));
-        let (panel_cosine, panel_sine) = turned(step.wrapping_mul(LANES as u64));
-        let (step_cosine, step_sine) = turned(step);
-        let (mut c, mut s) = ([0.0; LANES], [0.0; LANES]);
-        let mut expected = None;
-        for &panel in panels {
-            if expected == Some(panel) {
-                for lane in 0..LANES {
-                    let (x, y) = (c[lane], s[lane]);
-                    c[lane] = x * panel_cosine - y * panel_sine;
-                    s[lane] = x * panel_sine + y * panel_cosine;
-                }
-            } else {
-                let first = panel << (64 - level) | 1 << (60 - level);
-                (c[0], s[0]) = turned(first.wrapping_mul(multiple));
-                for lane in 1..LANES {
-                    let (x, y) = (c[lane - 1], s[lane - 1]);
-                    c[lane] = x * step_cosine - y * step_sine;
-                    s[lane] = x * step_sine + y * step_cosine;
-                }
+        // The turns from a panel's first point to each of its points.
+        let (mut lane_cosines, mut lane_sines) = ([1.0; LANES], [0.0; LANES]);
+        let (step_cosine, step_sine) = turned(multiple.wrapping_mul(cell(*level)));
+        for lane in 1..LANES {
+            let (x, y) = (lane_cosines[lane - 1], lane_sines[lane - 1]);
+            lane_cosines[lane] = x * step_cosine - y * step_sine;
+            lane_sines[lane] = x * step_sine + y * step_cosine;
+        }
+        for panels in panels.chunks(LANES) {
+            let (mut firsts, mut c, mut s) = ([0_u64; LANES], [0.0; LANES], [0.0; LANES]);
+            firsts[..panels.len()].copy_from_slice(panels);
+            for lane in 0..LANES {
+                let first = firsts[lane] << (64 - level) | 1 << (60 - level);
+                (c[lane], s[lane]) = turned(first.wrapping_mul(multiple));
             }
-            panel_of(&c, &s);
-            expected = Some(panel + 1);
+            for (x, y) in c.into_iter().zip(s).take(panels.len()) {
+                let (mut cosines, mut sines) = ([0.0; LANES], [0.0; LANES]);
+                for lane in 0..LANES {
+                    cosines[lane] = x * lane_cosines[lane] - y * lane_sines[lane];
+                    sines[lane] = x * lane_sines[lane] + y * lane_cosines[lane];
+                }
+                panel_of(&cosines, &sines);
+            }
         }
     }
 
@@ -346,9 +365,10 @@ pub(super) fn radians(position: u64) -> f64 {
 }
 
 /// Cosine and sine of an angle in units of 2^-64 turns.
+#[inline(always)]
 pub(super) fn turned(turn: u64) -> (f64, f64) {
     // The angle is signed, so that small angles of either sign keep their precision.
     let angle = (turn as i64) as f64 * (std::f64::consts::TAU / 18_446_744_073_709_551_616.0);
-    let (sine, cosine) = libm::sincos(angle);
+    let (sine, cosine) = sincos(angle);
     (cosine, sine)
 }

@@ -34,16 +34,24 @@ struct Shot {
 
 impl Shot {
     /// The probability to measure a path of this colour, over its fraction of all paths.
+    fn density(&self, colour: f64) -> f64 {
+        self.with_noise(self.ideal(colour))
+    }
+
+    fn with_noise(&self, ideal: f64) -> f64 {
+        1.0 + self.intact * (ideal * self.norm - 1.0)
+    }
+
+    /// The density without noise, up to [`Self::norm`].
     ///
     /// Let the other paths keep their amplitude. Each iterate then takes a path's amplitude a to
     /// `exp(i phi) (2 - a)`. It turns around `sqrt(1 + y^2)`, y = tan(phi/2), by `phi + pi` an
     /// iterate: a path far from the reference takes many iterates to be seen.
-    fn density(&self, colour: f64) -> f64 {
+    fn ideal(&self, colour: f64) -> f64 {
         let y = self.slope * (colour - self.reference);
         let centre = (1.0 + y * y).sqrt();
         let sine = libm::sin(self.iterations * libm::atan2(1.0, y.abs()));
-        let ideal = (1.0 + 4.0 * centre * (centre - 1.0) * sine * sine) * self.norm;
-        1.0 + self.intact * (ideal - 1.0)
+        1.0 + 4.0 * centre * (centre - 1.0) * sine * sine
     }
 }
 
@@ -139,20 +147,21 @@ impl Colours {
             reference: phases.reference(),
             iterations: k as f64,
             norm: 1.0,
-            intact: 1.0,
+            intact,
         };
+        let ideal = |seen: &Seen| shot.ideal(seen.colour);
+        let densities: Vec<f64> = self.seen.iter().chain(&self.unseen).map(ideal).collect();
         let (mut weights, mut sum) = (0.0, 0.0);
-        for seen in &self.seen {
+        for (seen, density) in self.seen.iter().zip(&densities) {
             let weight = seen.times / seen.density;
             weights += weight;
-            sum += weight * shot.density(seen.colour);
+            sum += weight * density;
         }
         if sum > 0.0 {
             shot.norm = weights / sum;
         }
-        shot.intact = intact;
-        for seen in self.seen.iter_mut().chain(&mut self.unseen) {
-            seen.density += shot.density(seen.colour);
+        for (seen, density) in self.seen.iter_mut().chain(&mut self.unseen).zip(densities) {
+            seen.density += shot.with_noise(density);
         }
         self.shots.push(shot);
         self.times += 1.0;

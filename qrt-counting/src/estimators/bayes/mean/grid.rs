@@ -1,6 +1,10 @@
 //! The posterior of a mean, on a grid that narrows around it.
 
+use crate::estimators::bayes::elementary::{arctangent, sincos};
+use crate::mean_signal::dot;
+use crate::vectorized::vectorized;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
 
 /// Number of points.
 const POINTS: usize = 256;
@@ -17,9 +21,12 @@ const MULTIPLES: u64 = 5;
 /// The largest phase between two points, in radians.
 const COARSEST: f64 = 0.7;
 /// Number of angles of measurement that are considered, over half a turn.
-const ANGLES: u32 = 16;
-/// The arctangent of a smaller number is its series of three terms, to 2e-8.
-const NEAR: f64 = 0.1;
+const ANGLES: usize = 16;
+
+/// Sine and cosine of each of these angles.
+static ANGLES_TURNED: LazyLock<[(f64, f64); ANGLES]> = LazyLock::new(|| {
+    std::array::from_fn(|angle| libm::sincos(angle as f64 * (PI / ANGLES as f64)))
+});
 
 /// A shot: its depth, and the angle at which it is measured.
 #[derive(Clone, Copy, Debug)]
@@ -34,9 +41,9 @@ pub(super) struct Grid {
     low: f64,
     step: f64,
     /// They add up to 1 after [`Grid::moments`].
-    probabilities: Vec<f64>,
+    probabilities: [f64; POINTS],
     /// Eigenphases at the points, in radians.
-    phases: Vec<f64>,
+    phases: [f64; POINTS],
 }
 
 impl Grid {
@@ -47,16 +54,15 @@ impl Grid {
         let mut grid = Self {
             low,
             step: (high - low) / (POINTS - 1) as f64,
-            probabilities: Vec::new(),
-            phases: vec![0.0; POINTS],
+            probabilities: [0.0; POINTS],
+            phases: [0.0; POINTS],
         };
         // Student's distribution of four degrees of freedom.
-        grid.probabilities = (0..POINTS)
-            .map(|point| {
-                let z = (grid.position(point) - mean) / deviation;
-                libm::pow(1.0 + 0.25 * z * z, -2.5)
-            })
-            .collect();
+        grid.probabilities = std::array::from_fn(|point| {
+            let z = (grid.position(point) - mean) / deviation;
+            let inverse = 1.0 / (1.0 + 0.25 * z * z);
+            inverse * inverse * inverse.sqrt()
+        });
         grid
     }
 
@@ -110,24 +116,23 @@ impl Grid {
             let value = from + 0.5 * t * (to - before + t * (square + t * cubic));
             value.max(0.5 * from.min(to))
         };
-        self.probabilities = (0..POINTS).map(between).collect();
+        self.probabilities = std::array::from_fn(between);
         self.low += first as f64 * self.step;
         self.step *= step;
     }
 
     /// Sets the eigenphases at the points for a circuit with this gain and reference.
     pub(super) fn aim(&mut self, gain: f64, reference: f64) {
-        let tangent = |point: usize| 0.5 * gain * (self.position(point) - reference);
-        let near = tangent(0).abs().max(tangent(POINTS - 1).abs()) < NEAR;
-        let phase = |tangent: f64| {
-            let square = tangent * tangent;
-            2.0 * if near {
-                tangent * (1.0 - square * (1.0 / 3.0 - square * 0.2))
-            } else {
-                libm::atan(tangent)
-            }
-        };
-        self.phases = (0..POINTS).map(|point| phase(tangent(point))).collect();
+        let (low, step) = (self.low - reference, self.step);
+        let phases = &mut self.phases;
+        vectorized(
+            #[inline(always)]
+            || {
+                for (point, phase) in phases.iter_mut().enumerate() {
+                    *phase = 2.0 * arctangent(0.5 * gain * (low + step * point as f64));
+                }
+            },
+        );
     }
 
     /// The depth and the angle that are expected to sharpen the posterior most per query.
@@ -135,6 +140,19 @@ impl Grid {
     /// The posterior's standard deviation is `deviation`. A shot takes one query more than iterates,
     /// of which there are at most `most`; noise leaves about `coherent` of them intact.
     pub(super) fn choose(
+        &self,
+        gain_and_deviation: (f64, f64),
+        most_and_coherent: (u64, f64),
+        visibility: impl Fn(u64) -> f64,
+    ) -> Plan {
+        vectorized(
+            #[inline(always)]
+            || self.best(gain_and_deviation, most_and_coherent, visibility),
+        )
+    }
+
+    #[inline(always)]
+    fn best(
         &self,
         (gain, deviation): (f64, f64),
         (most, coherent): (u64, f64),
@@ -148,24 +166,17 @@ impl Grid {
         let unit = (0.5 * REACH / (gain * deviation)).min(coarsest);
         let unit = unit.min(coherent / MULTIPLES as f64).round();
         let unit = (unit as u64).clamp(1, most);
-        let turns = self.phases.iter();
-        let turns: Vec<_> = turns
-            .map(|phase| libm::sincos(2.0 * unit as f64 * phase))
-            .collect();
-        let mut multiples = vec![(0.0, 1.0); POINTS];
+        let spread = Moments::of(&self.probabilities);
+        let turns = self.turns(unit);
+        let mut multiples = Turns::NONE;
         let mut best = 0.0;
         for multiple in 1..=MULTIPLES {
             let k = multiple * unit;
             if k > most || multiple > 1 && k as f64 > coarsest {
                 break;
             }
-            for ((sine, cosine), turn) in multiples.iter_mut().zip(&turns) {
-                (*sine, *cosine) = (
-                    *sine * turn.1 + *cosine * turn.0,
-                    *cosine * turn.1 - *sine * turn.0,
-                );
-            }
-            let (rest, basis) = self.rest(&multiples, visibility(k));
+            multiples.turn_by(&turns);
+            let (rest, basis) = spread.after(&multiples, visibility(k));
             let worth = (1.0 / rest.max(1e-9).sqrt() - 1.0) / (k + 1) as f64;
             if worth > best {
                 best = worth;
@@ -178,44 +189,102 @@ impl Grid {
         plan
     }
 
-    /// The smallest part of the variance that a shot is expected to leave, over all angles, and the
-    /// angle. `turns` are sine and cosine of the shot's phase at every point.
-    fn rest(&self, turns: &[(f64, f64)], visibility: f64) -> (f64, f64) {
-        // Sums of the probabilities times 1, x and x^2, alone and times the cosine and the sine.
-        let mut sums = [[0.0; 3]; 3];
-        for (point, (probability, (sine, cosine))) in
-            self.probabilities.iter().zip(turns).enumerate()
-        {
-            let x = point as f64 - 0.5 * POINTS as f64;
-            for (sums, factor) in sums.iter_mut().zip([1.0, x, x * x]) {
-                let p = probability * factor;
-                sums[0] += p;
-                sums[1] += p * cosine;
-                sums[2] += p * sine;
-            }
+    /// The phases of a shot of `k` iterates.
+    #[inline(always)]
+    fn turns(&self, k: u64) -> Turns {
+        let mut turns = Turns::NONE;
+        let Turns { sines, cosines } = &mut turns;
+        for ((sine, cosine), phase) in sines.iter_mut().zip(cosines).zip(&self.phases) {
+            (*sine, *cosine) = sincos(2.0 * k as f64 * phase);
         }
-        let variance = sums[2][0] - sums[1][0] * sums[1][0];
-        let at = |angle: u32| {
-            let basis = f64::from(angle) * PI / f64::from(ANGLES);
-            let (sine, cosine) = libm::sincos(basis);
-            let after = |sign: f64| {
-                let [weight, first, second] =
-                    sums.map(|[sum, c, s]| sum + sign * visibility * (c * cosine + s * sine));
-                0.5 * (second - first * first / weight)
-            };
-            ((after(1.0) + after(-1.0)) / variance, basis)
-        };
-        let all = (0..ANGLES).map(at);
-        all.min_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((1.0, FRAC_PI_2))
+        turns
     }
 
     /// Takes the outcome of a shot into account.
     pub(super) fn observe(&mut self, plan: &Plan, visibility: f64, one: bool) {
+        vectorized(
+            #[inline(always)]
+            || self.multiply(plan, visibility, one),
+        );
+    }
+
+    #[inline(always)]
+    fn multiply(&mut self, plan: &Plan, visibility: f64, one: bool) {
         let signed = if one { -visibility } else { visibility };
-        for (probability, phase) in self.probabilities.iter_mut().zip(&self.phases) {
-            let angle = 2.0 * plan.iterations as f64 * phase - plan.basis;
-            *probability *= 1.0 + signed * libm::cos(angle);
+        let (sine, cosine) = libm::sincos(plan.basis);
+        let turns = self.turns(plan.iterations);
+        let both = turns.sines.iter().zip(&turns.cosines);
+        for (probability, (s, c)) in self.probabilities.iter_mut().zip(both) {
+            *probability *= 1.0 + signed * (c * cosine + s * sine);
         }
+    }
+}
+
+/// Sines and cosines of a shot's phase at every point.
+#[derive(Clone, Debug)]
+struct Turns {
+    sines: [f64; POINTS],
+    cosines: [f64; POINTS],
+}
+
+impl Turns {
+    const NONE: Self = Self {
+        sines: [0.0; POINTS],
+        cosines: [1.0; POINTS],
+    };
+
+    #[inline(always)]
+    fn turn_by(&mut self, other: &Self) {
+        for point in 0..POINTS {
+            let (sine, cosine) = (self.sines[point], self.cosines[point]);
+            let (s, c) = (other.sines[point], other.cosines[point]);
+            self.sines[point] = sine * c + cosine * s;
+            self.cosines[point] = cosine * c - sine * s;
+        }
+    }
+}
+
+/// Probabilities times 1, x and x^2 at every point x, and their sums.
+#[derive(Clone, Debug)]
+struct Moments {
+    weights: [[f64; POINTS]; 3],
+    sums: [f64; 3],
+}
+
+impl Moments {
+    #[inline(always)]
+    fn of(probabilities: &[f64; POINTS]) -> Self {
+        let mut weights = [*probabilities, [0.0; POINTS], [0.0; POINTS]];
+        for (point, probability) in probabilities.iter().enumerate() {
+            let x = point as f64 - 0.5 * POINTS as f64;
+            weights[1][point] = probability * x;
+            weights[2][point] = probability * x * x;
+        }
+        let sums = weights.map(|weights| dot(&weights, &[1.0; POINTS]));
+        Self { weights, sums }
+    }
+
+    /// The smallest part of the variance that a shot is expected to leave, over all angles, and the
+    /// angle.
+    #[inline(always)]
+    fn after(&self, turns: &Turns, visibility: f64) -> (f64, f64) {
+        let [sum, first, second] = self.sums;
+        let variance = second - first * first;
+        let cosines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.cosines));
+        let sines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.sines));
+        let mut best = (1.0, FRAC_PI_2);
+        for (angle, (sine, cosine)) in ANGLES_TURNED.iter().enumerate() {
+            // What the outcomes 0 and 1 add to the moments, and take off them.
+            let [w, f, s] = [0, 1, 2].map(|n| visibility * (cosines[n] * cosine + sines[n] * sine));
+            let after = |sign: f64| {
+                let first = first + sign * f;
+                0.5 * ((second + sign * s) - first * first / (sum + sign * w))
+            };
+            let rest = (after(1.0) + after(-1.0)) / variance;
+            if angle == 0 || rest < best.0 {
+                best = (rest, angle as f64 * (PI / ANGLES as f64));
+            }
+        }
+        best
     }
 }
