@@ -429,7 +429,7 @@ fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>
         100.0 * fraction,
         options.estimator.unwrap_or(counting.estimator),
         counting.repetitions,
-        Estimator::AdaptiveBayes,
+        Estimator::Auto,
     ));
 }
 
@@ -460,7 +460,12 @@ fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
         }
     });
     let comparator = scene.scene().comparator;
-    let bounds = machine.stage().bound();
+    let (bounds, limits) = (machine.stage().bound(), machine.stage().limit());
+    let rounded = |c: usize| greatest[c] <= limits[c] - bounds[c];
+    if (0..3).all(rounded) {
+        // Rounding left a trace of a lamp that faces away.
+        return;
+    }
     let counts = |(greatest, bound): (f64, f64)| {
         let comparators = Comparators::new(bound, comparator);
         comparators.is_ok_and(|comparators| comparators.good(greatest) > 0)

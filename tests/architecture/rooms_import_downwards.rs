@@ -105,6 +105,7 @@ const MODULES: &[(&str, &[&str])] = &[
             "comparator",
             "strata",
             "histogram",
+            "vectorized",
             "mean_signal",
             "lookup",
             "likelihood",

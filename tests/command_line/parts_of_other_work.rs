@@ -177,9 +177,9 @@ fn a_portion_that_does_not_hold_decides() {
         "{errors}"
     );
     for (model, advice) in [
-        ("real", "; this is a defect of qrt"),
+        ("real", "; no rounding explains it"),
         ("fixed", "; numbers of 10 fraction bits may be too coarse"),
-        ("gates", "; this is a defect of qrt"),
+        ("gates", "; no rounding explains it"),
     ] {
         answer["defect"] = serde_json::json!({
             "message": "it is too bright", "model": model, "pixel": [3, 1], "id": 5,

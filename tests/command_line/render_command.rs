@@ -659,6 +659,46 @@ fn what_takes_long_is_told_beforehand() {
 }
 
 #[test]
+fn a_trace_of_a_lamp_that_faces_away_is_no_light() {
+    // The lamp touches the wall. Rounding may leave a trace of its light on it, and the bound is 0.
+    let scene = "name: away
+camera: { perspective: { eye: [0, 0, 3], target: [0, 0, 0], vfov: 40 } }
+film: { width: 8, height: 8 }
+materials:
+  wall: { SCATTER }
+  lamp: { emitter: { radiance: [3, 3, 3], albedo: [0.5, 0.5, 0.5] } }
+geometry:
+  - FACE
+  - quad: { vertices: [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1]], material: wall }
+sampling:
+  path_bits: 12
+  depths: [{ bits: [10, 10] }, { bits: [10, 10], light: [8, 8] }, { bits: [10, 10], light: [8, 8] }]
+";
+    let quad = "quad: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1], [-1, 1, -1]], material: lamp }";
+    let triangle = "triangle: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1]], material: lamp }";
+    let matte = "lambertian: { albedo: [0.8, 0.8, 0.8] }";
+    for (scatter, face) in [
+        (matte, quad),
+        (matte, triangle),
+        ("mirror: { reflectance: [0.9, 0.8, 0.7] }", quad),
+    ] {
+        let folder = Folder::with(
+            "away.yaml",
+            &scene.replace("SCATTER", scatter).replace("FACE", face),
+        );
+        for model in ["real", "fixed"] {
+            let output = folder.qrt(&["render", "away.yaml", "-o", "a.exr", "--model", model]);
+            let errors = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(0), "{errors}");
+            assert!(errors.contains("QRT0221"), "{errors}");
+            assert!(!errors.contains("carry light"), "{model}: {errors}");
+            let (_, pixels, _) = read_exr(&folder.path("a.exr"));
+            assert!(pixels.iter().flatten().all(|&c| c == 0.0), "{model}");
+        }
+    }
+}
+
+#[test]
 fn a_picture_below_the_first_threshold_says_why_it_is_black() {
     // The weight of nearly smooth metal under the cosine map is bounded by 0.8 / 0.05^4.
     let scene = "name: dim

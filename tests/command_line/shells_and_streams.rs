@@ -87,6 +87,8 @@ fn set_reaches_any_name_in_quotation_marks() {
         "materials.\"c=d[0]\".emitter.radiance=[3, 3, 3]",
         "materials.\"e\\\"f\\\\\".emitter.radiance=[3, 3, 3]",
         "materials.\"plain\".emitter.radiance[0]=3",
+        "materials.'a.b'.emitter.radiance=[3, 3, 3]",
+        "materials.'it''s'={ mirror: { reflectance: [1, 1, 1] } }",
         "\"materials\" . \"plain\" .emitter.radiance = [3, 3, 3]",
         "materials.\"new.one\"={ mirror: { reflectance: [1, 1, 1] } }",
         "name=\"a=b.c\"",

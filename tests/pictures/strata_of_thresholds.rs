@@ -22,7 +22,7 @@ geometry:
   - quad: { vertices: [[-1, -1, 3], [-1, 1, 3], [1, 1, 3], [1, -1, 3]], material: lamp }
 sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }] }
 comparator: { bits: 8 }
-counting: { phase_bits: 10 }
+counting: { phase_bits: 10, estimator: adaptive-bayes }
 ";
 
 fn with<'a>(model: Model) -> RenderOptions<'a> {

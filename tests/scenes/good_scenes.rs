@@ -102,7 +102,7 @@ fn defaults_are_those_of_the_manual() {
             scene.counting.window.name(),
             scene.counting.estimator.name()
         ),
-        ("sine", "adaptive-bayes")
+        ("sine", "auto")
     );
     assert_eq!(
         (scene.circuit.uncompute.name(), scene.circuit.nearest.name()),

@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Codes of errors that relate values to each other, or concern files: a schema cannot express them.
-const RELATIONS: [&str; 23] = [
+const RELATIONS: [&str; 24] = [
     codes::SKY,
     codes::NO_LENS,
     codes::PRIMARY_LIGHT,
@@ -45,6 +45,7 @@ const RELATIONS: [&str; 23] = [
     codes::PHONG_ENERGY,
     codes::CAMERA_TARGET,
     codes::CAMERA_UP,
+    codes::CAMERA_ON_SPHERE,
     codes::COINCIDENT,
     codes::ZERO_AREA,
     codes::NOT_CONVEX,

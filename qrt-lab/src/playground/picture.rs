@@ -13,7 +13,7 @@ use qrt_scene::{Counting, Estimator};
 use std::ops::Range;
 
 /// The estimator that is used if the scene's own is `exact`.
-const DEFAULT: Estimator = Estimator::AdaptiveBayes;
+const DEFAULT: Estimator = Estimator::Auto;
 
 /// A part of a picture, as far as it is traced.
 pub(super) struct Picture {

@@ -320,9 +320,9 @@ fn name(channel: usize) -> &'static str {
 /// Advice for a path whose colour is out of bounds, on a machine of `fraction` bits; `None` is the
 /// real model.
 pub fn out_of_bounds_advice(fraction: Option<u32>) -> String {
-    let report = "this is a defect of qrt, please report it with the scene";
+    let report = "please report it with the scene";
     match fraction {
-        None => report.to_owned(),
+        None => format!("no rounding explains it, {report}"),
         Some(bits) => format!(
             "numbers of {bits} fraction bits may be too coarse for the scene: write more \
              (`precision.fraction`); if it stays with 24, {report}"

@@ -1,6 +1,7 @@
 //! Overrides of the command line: `--set sampling.depths[1].bits=[4, 4]`.
 //!
-//! A key that holds `.`, `=` or `[` is written in quotation marks: `materials."a.b".mirror={}`.
+//! A key that holds `.`, `=` or `[` is written in quotation marks, double or single, as in YAML:
+//! `materials."a.b".mirror={}`.
 //!
 //! Overrides change the tree before it is decoded, so that a value from the command line is read
 //! and checked like one of the file. Its place is in the override's own text.
@@ -84,7 +85,7 @@ fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
         let rest = &text[at..];
         if let Some((_, length)) = quoted(rest) {
             at += length;
-        } else if rest.trim_start().starts_with('"') {
+        } else if rest.trim_start().starts_with(['"', '\'']) {
             return Err(text.len() - rest.trim_start().len());
         }
         match text[at..].find(['.', '=']) {
@@ -97,21 +98,28 @@ fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
 }
 
 /// Returns a quoted key at the beginning of `text`, and the number of bytes of the quoted key and
-/// the spaces around it. As in [`Path`](crate::syntax::Path), a backslash stands before a quotation
-/// mark or a backslash of the key's own.
+/// the spaces around it. Between double quotation marks, as in [`Path`](crate::syntax::Path), a
+/// backslash stands before a quotation mark or a backslash of the key's own. Between single ones, a
+/// mark of the key's own is doubled.
 fn quoted(text: &str) -> Option<(String, usize)> {
-    let inner = text.trim_start().strip_prefix('"')?;
+    let inner = text.trim_start();
+    let mark = inner.chars().next().filter(|mark| ['"', '\''].contains(mark))?;
+    let inner = &inner[1..];
     let start = text.len() - inner.len();
     let mut key = String::new();
-    let mut letters = inner.char_indices();
+    let mut letters = inner.char_indices().peekable();
     while let Some((place, letter)) = letters.next() {
         match letter {
-            '"' => {
+            '\'' if mark == '\'' && letters.peek().is_some_and(|(_, next)| *next == '\'') => {
+                letters.next();
+                key.push('\'');
+            }
+            letter if letter == mark => {
                 let behind = &inner[place + 1..];
                 let spaces = behind.len() - behind.trim_start().len();
                 return Some((key, start + place + 1 + spaces));
             }
-            '\\' => key.push(letters.next()?.1),
+            '\\' if mark == '"' => key.push(letters.next()?.1),
             other => key.push(other),
         }
     }

@@ -574,7 +574,7 @@ record! {
     /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
     /// The estimator that turns measurements into an amplitude.
-    pub estimator: Estimator = word::<Estimator>(), or Estimator::AdaptiveBayes;
+    pub estimator: Estimator = word::<Estimator>(), or Estimator::Auto;
     /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
     /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
     /// each channel of each pixel from what it measures first. Only the estimators `adaptive-bayes`,

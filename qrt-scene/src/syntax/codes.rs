@@ -92,6 +92,8 @@ codes! {
         "Choose an `up` that is neither zero nor along the view";
     SKY = "QRT0211", "a sky without a radiance, with a part of a gradient, or without a zenith",
         "Write one `radiance`, or both `horizon` and `zenith`";
+    CAMERA_ON_SPHERE = "QRT0212", "a camera that stands on the surface of a sphere",
+        "Move `eye` inside the sphere or outside";
     UNUSED_MATERIAL = "QRT0220", "a material that nothing is made of",
         "Remove it, or give it to a primitive; it is only a warning";
     BLACK = "QRT0221", "a scene whose pictures are black",

@@ -1,11 +1,16 @@
-//! Checks that a camera has a view direction, and an `up` direction that is not along it.
+//! Checks that a camera has a view direction, and an `up` direction that is not along it, and that its
+//! eye is inside or outside each sphere.
 
+use super::Ball;
 use crate::scene::Camera;
 use crate::syntax::{Camera as Fault, Path, Problem, Problems};
 
 /// Minimum sine of the angle between view and `up`: below it, rounding decides the direction to the
 /// right.
 const LEAST_SINE: f64 = 1e-9;
+/// Minimum distance of an eye from the surface of a sphere, relative to its radius: nearer than this,
+/// rounding decides if the eye is inside.
+const LEAST_DISTANCE: f64 = 1e-6;
 
 pub(super) fn check(camera: &Camera, problems: &mut Problems) {
     let path = Path::root().key("camera").key(camera.kind());
@@ -32,5 +37,25 @@ pub(super) fn check(camera: &Camera, problems: &mut Problems) {
         if sine.is_nan() || sine < LEAST_SINE {
             problems.add(path.key("up"), Fault::UpAlongView);
         }
+    }
+}
+
+/// Refuses an eye on the surface of a sphere. Rays of a lens, and of an orthographic camera, start at
+/// many points, of which hardly any is on it.
+pub(super) fn check_spheres(camera: &Camera, balls: &[Ball], problems: &mut Problems) {
+    let Camera::Perspective(part) = camera else {
+        return;
+    };
+    let eye = Path::root().key("camera").key(camera.kind()).key("eye");
+    if part.lens.is_some() || problems.touches(&eye) {
+        return;
+    }
+    let on = |ball: &&Ball| {
+        let height = (part.eye - ball.centre).length() - ball.radius;
+        height.abs() < LEAST_DISTANCE * ball.radius
+    };
+    if let Some(ball) = balls.iter().find(on) {
+        let problem = Problem::new(eye, Fault::OnSphere);
+        problems.push(problem.also(ball.place()));
     }
 }

@@ -1,6 +1,6 @@
 //! Checks that pieces of glass do not touch.
 
-use super::{Scatter, ValidScene};
+use super::{Ball, Scatter, ValidScene};
 use crate::polygons::{Overlap, first_overlap, stage_units};
 use crate::scene::Geometry;
 use crate::syntax::{Glass, Problem, Problems};
@@ -17,6 +17,7 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
         let surface = valid.materials.get(surface as usize);
         surface.is_some_and(|surface| matches!(surface.scatter, Scatter::Dielectric(_)))
     };
+    check_spheres(valid, is_glass, problems);
     let glass: Vec<usize> = (0..valid.polygons.len())
         .filter(|&polygon| is_glass(valid.polygons[polygon].surface))
         .collect();
@@ -43,5 +44,32 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
         };
         let problem = Problem::new(place(second), Glass::Touches);
         problems.push(problem.also(place(first)));
+    }
+}
+
+/// Refuses spheres of glass with one surface.
+fn check_spheres(valid: &ValidScene, is_glass: impl Fn(u32) -> bool, problems: &mut Problems) {
+    let mut glass: Vec<&Ball> = (valid.balls.iter())
+        .filter(|ball| is_glass(ball.surface))
+        .collect();
+    glass.sort_by(|a, b| a.centre.x.total_cmp(&b.centre.x));
+    for (number, ball) in glass.iter().enumerate() {
+        let most = SLIVER * ball.radius;
+        let near = (glass[number + 1..].iter())
+            .take_while(|other| other.centre.x - ball.centre.x < most)
+            .find(|other| {
+                let apart = (other.centre - ball.centre).length();
+                apart + (other.radius - ball.radius).abs() < most
+            });
+        if let Some(other) = near {
+            let [first, second] = if ball.primitive < other.primitive {
+                [ball, other]
+            } else {
+                [other, ball]
+            };
+            let problem = Problem::new(second.place(), Glass::Touches);
+            problems.push(problem.also(first.place()));
+            return;
+        }
     }
 }

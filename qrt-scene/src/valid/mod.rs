@@ -163,6 +163,11 @@ impl Ball {
     pub fn corners(&self) -> [DVec3; 2] {
         [self.centre - self.radius, self.centre + self.radius]
     }
+
+    /// The place of the sphere in the scene.
+    pub(crate) fn place(&self) -> Path {
+        Path::root().key("geometry").item(self.primitive).key("sphere")
+    }
 }
 
 impl ValidScene {
@@ -352,6 +357,7 @@ pub(crate) fn check(
         auto: OnceLock::new(),
         recordings: Arc::default(),
     };
+    camera::check_spheres(&valid.scene.camera, &valid.balls, &mut problems);
     glass::check(&valid, &mut problems);
     if problems.count() == 0 {
         let found = notes::warnings(&valid);

@@ -7,8 +7,8 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// `adaptive-bayes`: single shots, each at the query depth that is expected to sharpen the
 /// posterior most per query.
 ///
-/// It is the default, and the most accurate estimator here if amplitudes are spread evenly, or with
-/// a thousand queries and more. In dark pixels with fewer queries, `sine` has less error, because a
+/// It is the most accurate estimator that counts if amplitudes are spread evenly, or with a thousand
+/// queries and more. In dark pixels with fewer queries, `sine` has less error, because a
 /// run of `adaptive-bayes` occasionally ends at another mode.
 ///
 /// The estimate is the posterior mean under a prior of about `1/(a (1 - a))`, a the amplitude. It

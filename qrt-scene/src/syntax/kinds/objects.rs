@@ -65,6 +65,9 @@ problems! {
         NoUp = CAMERA_UP "`up` is zero: it has no direction";
         UpAlongView = CAMERA_UP "`up` points along the view"
             help "choose an `up` across the view, such as [0, 0, 1]";
+        OnSphere = CAMERA_ON_SPHERE "the camera stands on the surface of a sphere"
+            label "neither inside the sphere nor outside: rounding would decide it"
+            help "move `eye` by a thousandth of the radius, inside or outside" also "the sphere";
     }
 
     /// Problems with the sky.

@@ -60,6 +60,10 @@ pub(in crate::cli::diff) fn exr(path: &Path, memory: Memory) -> Result<Picture, 
                 "it keeps luminance and chroma, Y, RY and BY: save it with channels R, G and B";
             return Err(refused(path, why));
         }
+        _ if ["X", "Z"].iter().all(|name| channels.has(name)) => {
+            let why = "it keeps CIE's X, Y and Z: save it with channels R, G and B";
+            return Err(refused(path, why));
+        }
         _ => {
             let why = "it has no channels R, G and B of every pixel";
             [channels.get("Y").ok_or_else(|| refused(path, why))?; 3]
