@@ -1,7 +1,7 @@
 //! The mean phase on the pixels of six scenes, beside counting.
 //!
 //! `cargo bench --bench estimators -- mean` runs `phase-mean`, `auto`, `adaptive-bayes` and
-//! `adaptive-bayes` without strata on some 200 channels of pixels, at 255 to 16,383 queries. It
+//! `adaptive-bayes` without strata on some 380 channels of 294 pixels, at 255 to 16,383 queries. It
 //! prints, for each scene and number of queries, the geometric mean over channels of queries times
 //! the 95th-percentile error, and the same of the root mean square error, both over sigma, the
 //! standard deviation of the paths' colours; the worst channel's; and the fraction of intervals of 95 %
@@ -21,22 +21,23 @@ use qrt::counting::{Comparators, Histogram};
 use qrt::runtime::path_machines::{PathMachine, Real};
 use qrt::scene::front::load;
 use qrt::scene::{Counting, Estimator};
+use std::fmt::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Scenes, and the settings with which they are measured.
 const SCENES: [(&str, &str, &[&str]); 6] = [
-    ("box, lit", "lit-box", &[]),
-    ("glass, lit", "cornell-glass", &["sampling.depths=4"]),
-    ("knot, lit", "knot", &["sampling.depths=3"]),
+    ("box lit", "lit-box", &[]),
+    ("glass lit", "cornell-glass", &["sampling.depths=4"]),
+    ("knot lit", "knot", &["sampling.depths=3"]),
     ("sky", "weekend", &[]),
-    ("sky, spheres of glass", "weekend", &["sampling.depths=6"]),
-    ("box, no light sampling", "cornell-box", &[]),
+    ("sky with glass", "weekend", &["sampling.depths=6"]),
+    ("box without light sampling", "cornell-box", &[]),
 ];
 /// Columns and rows of pixels of each scene.
-const SIDE: u32 = 6;
+const SIDE: u32 = 7;
 /// One in this many channels of these pixels is measured.
-const EVERY: usize = 3;
+const EVERY: usize = 2;
 const PATH_BITS: u32 = 12;
 const COMPARATOR_BITS: u32 = 10;
 const REGISTERS: [u32; 4] = [8, 10, 12, 14];
@@ -185,6 +186,9 @@ fn geometric(values: impl Iterator<Item = f64>) -> f64 {
 
 pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
     let runs: u32 = arguments.word().map_or(100, |runs| runs.parse().unwrap());
+    let mut csv = String::from(
+        "scene,channels,runs,queries,estimator,q95,q95_worst,rmse,rmse_worst,covered,covered_worst\n",
+    );
     // By queries: ratios of q95 of `adaptive-bayes` to `auto`, where sigma is small beside the mean, and elsewhere.
     let mut ratios = [const { [const { Vec::new() }; 2] }; REGISTERS.len()];
     let mut worst_coverage = 1.0_f64;
@@ -213,15 +217,22 @@ pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
                     .iter()
                     .map(|errors| errors.covered)
                     .fold(1.0, f64::min);
-                println!(
-                    "| {queries} | {way} | {:.1} | {:.1} | {:.1} | {:.1} | {:.1} % | {:.1} % |",
+                let figures = [
                     geometric(found.iter().map(|errors| errors.q95)),
                     most(|errors| errors.q95),
                     geometric(found.iter().map(|errors| errors.rms)),
                     most(|errors| errors.rms),
                     100.0 * covered / found.len() as f64,
                     100.0 * least,
+                ];
+                let figures = figures.map(|figure| format!("{figure:.1}"));
+                let [q95, q95_worst, rms, rms_worst, mean, worst] = &figures;
+                println!(
+                    "| {queries} | {way} | {q95} | {q95_worst} | {rms} | {rms_worst} | {mean} % | {worst} % |"
                 );
+                let figures = figures.join(",");
+                let channels = channels.len();
+                writeln!(csv, "{what},{channels},{runs},{queries},{way},{figures}").unwrap();
                 if estimate != Estimator::AdaptiveBayes {
                     worst_coverage = worst_coverage.min(covered / found.len() as f64);
                 }
@@ -232,6 +243,9 @@ pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
                 ratios[wide].push(counted.q95.max(1e-9) / auto.q95.max(1e-9));
             }
         }
+    }
+    if let (Some(file), true) = (arguments.csv(), arguments.names("mean")) {
+        std::fs::write(file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
     println!(
         "\nqueries of `adaptive-bayes` over those of `auto`, for equal 95th-percentile errors\n"

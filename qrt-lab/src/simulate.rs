@@ -5,6 +5,14 @@
 //! Fourier transform. It runs on the sparse state vector with all ancillas, which are checked after each
 //! query. Beside its outcomes stand those that theory predicts from S of N, where the fixed machine
 //! counts S path by path.
+//!
+//! [`simulate_mean_phase`] runs the circuit of the mean phase in the same way.
+
+mod mean_phase;
+
+pub use mean_phase::{
+    LevelOutcome, MOST_ITERATES, MeanPhase, MeanPhaseSimulation, simulate_mean_phase,
+};
 
 use qrt_circuit::quantum::{CountingCircuit, QuantumError};
 use qrt_core::inspect::OraclePixel;
@@ -139,7 +147,10 @@ pub enum SimulateError {
         /// Number of qubits of the phase register.
         phase: u32,
     },
-    /// The counting circuit cannot be made.
+    /// Too many iterates of the mean-phase circuit.
+    #[error("{0} iterates of the mean-phase circuit; at most {MOST_ITERATES} are simulated")]
+    TooManyIterates(u64),
+    /// The circuit cannot be made.
     #[error(transparent)]
     Circuit(#[from] QuantumError),
     /// The amplitudes cannot be computed, or an ancilla does not return to zero.
@@ -172,6 +183,7 @@ impl SimulateError {
             self,
             Self::Oracle(_)
                 | Self::TooManySuperposed { .. }
+                | Self::TooManyIterates(_)
                 | Self::WouldNotFit(_)
                 | Self::StateVector(
                     StateVectorError::TooManyStates { .. }
@@ -233,13 +245,23 @@ pub fn simulate(
         film.height
     );
     let counting = Counting::of_scene(oracles.scene(), options)?;
+    let (alone, name) = oracle_of(oracles, pixel, options)?;
+    counting.simulate(&alone, name, pixel, options, 1)
+}
+
+/// The oracles of a pixel alone, and the one that is simulated.
+fn oracle_of<'a>(
+    oracles: &'a Oracles<'_>,
+    pixel: OraclePixel,
+    options: &SimulateOptions<'_>,
+) -> Result<(Oracles<'a>, OracleName), SimulateError> {
     let alone = oracles.of_pixel(pixel.place);
     let class = alone.classes().class(pixel.place);
     let name = match options.channel {
         Some(channel) => alone.name(channel, class),
         None => alone.most_expensive()?.name,
     };
-    counting.simulate(&alone, name, pixel, options, 1)
+    Ok((alone, name))
 }
 
 /// The counting circuit that is simulated.

@@ -11,7 +11,10 @@ use super::{count, interrupt, terminal};
 use clap::Args;
 use qrt_core::inspect::{OraclePixel, grouped};
 use qrt_core::oracle::Oracles;
-use qrt_lab::simulate::{SimulateError, SimulateOptions, Simulation, simulate, simulate_film};
+use qrt_lab::simulate::{
+    MeanPhase, MeanPhaseSimulation, SimulateError, SimulateOptions, Simulation, simulate,
+    simulate_film, simulate_mean_phase,
+};
 use qrt_lab::{draw, json};
 use qrt_runtime::image::{self, Encoding, Metadata};
 use qrt_runtime::plan::PlanOptions;
@@ -36,6 +39,9 @@ const BAR: f64 = 32.0;
 /// The path index, the comparator and the phase register together have at most 24 qubits. The scenes in
 /// scenes-yaml/small/ are that small.
 ///
+/// With --mean-phase, it is the circuit of the mean phase: K iterates, whose phase is the mean of the
+/// paths' colours less a reference, and no phase register. Theory is what the levels of the paths say.
+///
 /// With --film, every channel of every pixel is counted by a circuit of its own, and the estimates from
 /// the drawn outcomes are a picture.
 ///
@@ -45,7 +51,8 @@ const BAR: f64 = 32.0;
 Examples:
   qrt simulate scenes-yaml/small/edge.yaml --pixel 1,0
   qrt simulate edge.yaml --pixel 1,0 --phase-bits 4 --shots 100 --plot edge.svg
-  qrt simulate edge.yaml --film edge.png")]
+  qrt simulate edge.yaml --film edge.png
+  qrt simulate edge.yaml --pixel 1,0 --mean-phase 4")]
 pub(crate) struct SimulateArgs {
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
@@ -66,6 +73,31 @@ pub(crate) struct SimulateArgs {
         value_parser = clap::value_parser!(u32).range(1..=i64::from(qrt_counting::MAX_REPETITIONS))
     )]
     shots: Option<u32>,
+    /// Run K iterates of the mean phase in place of counting
+    #[arg(
+        long,
+        value_name = "K",
+        value_parser = clap::value_parser!(u64).range(0..=qrt_lab::simulate::MOST_ITERATES),
+        conflicts_with_all = ["phase_bits", "window", "shots", "plot", "film"]
+    )]
+    mean_phase: Option<u64>,
+    /// The slope of the mean phase, for colours over the scale [default: 0.6 over the paths' standard
+    /// deviation]
+    #[arg(
+        long,
+        value_name = "ALPHA",
+        requires = "mean_phase",
+        allow_hyphen_values = true
+    )]
+    slope: Option<f64>,
+    /// The colour of phase 0, over the scale [default: half a standard deviation below the mean]
+    #[arg(
+        long,
+        value_name = "COLOUR",
+        requires = "mean_phase",
+        allow_hyphen_values = true
+    )]
+    reference: Option<f64>,
     /// Another seed gives other paths and draws
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
@@ -149,6 +181,22 @@ fn one_pixel(
         ..Workers::default()
     };
     let bar = Bar::setting_up();
+    if let Some(iterates) = args.mean_phase {
+        let asked = MeanPhase {
+            iterates,
+            slope: args.slope,
+            reference: args.reference,
+        };
+        let simulated = simulate_mean_phase(oracles, pixel, &args.options(workers), &asked);
+        bar.clear();
+        let simulation = simulated.map_err(|error| refused(loaded, error))?;
+        return if args.json {
+            let json = json::simulate_mean_phase(scene, &simulation);
+            terminal::print(&format!("{json:#}\n"))
+        } else {
+            terminal::print(&mean_phase_text(&scene.scene().name, &simulation))
+        };
+    }
     let simulated = simulate(oracles, pixel, &args.options(workers));
     bar.clear();
     let simulation = simulated.map_err(|error| refused(loaded, error))?;
@@ -269,4 +317,54 @@ fn text(scene: &str, one: &Simulation) -> String {
         one.radiance()
     );
     out
+}
+
+fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
+    let [x, y] = one.pixel.place;
+    let mut out = format!(
+        "{scene}: channel {} of pixel {x},{y}, seed {}\n\
+         {} qubits: {} path, 1 sign, {} work; {} gates in {} queries; all work qubits 0 at the end\n\
+         mean {:.6} and standard deviation {:.6} of the scale; slope {:.4}, reference {:.6}, {} iterates\n\n\
+         {:>5}  {:>7}  {:<21}  {:<21}\n\
+         {:>5}  {:>7}  {:<10}  {:<10} {:<10}  {:<10}\n",
+        one.name.channel_name(),
+        one.pixel.seed,
+        one.qubits,
+        one.path_bits,
+        one.qubits - one.path_bits - 1,
+        grouped(one.gates),
+        one.queries,
+        one.mean,
+        one.deviation,
+        one.phases.slope(),
+        one.phases.reference(),
+        one.iterates,
+        "",
+        "",
+        "sign 0",
+        "sign 1",
+        "level",
+        "paths",
+        "simulated",
+        "theory",
+        "simulated",
+        "theory",
+    );
+    for level in &one.levels {
+        let ([a, b], [c, d]) = (level.simulated, level.theory);
+        let _ = writeln!(
+            out,
+            "{:>5}  {:>7}  {a:<10.8}  {c:<10.8} {b:<10.8}  {d:<10.8}",
+            level.level, level.paths
+        );
+    }
+    let [simulated, theory] = one.zero();
+    let _ = write!(
+        out,
+        "\nsign 0: {simulated:.8}, theory {theory:.8}\nlargest difference: {:.1e}\n",
+        one.largest_difference()
+    );
+    out.lines()
+        .map(|line| format!("{}\n", line.trim_end()))
+        .collect()
 }

@@ -1,5 +1,6 @@
-//! Random scenes on a coarse grid, where everything coincides: faces on one plane, faces that touch, cross
-//! and enclose each other, glass closed, open and turned over, eyes and films on faces, edges and corners.
+//! Random scenes on a coarse grid, where everything coincides: faces on one plane, faces and spheres that
+//! touch, cross and enclose each other, glass closed, open and turned over, eyes and films on faces, edges
+//! and corners.
 //!
 //! For each scene: all models agree, no path exceeds its bound, the order of the list changes nothing
 //! except which face of one plane hides another, and a search finds the same faces as the tracer. Over
@@ -44,6 +45,10 @@ impl Face {
     }
 }
 
+fn corner_of(halves: &Corner) -> [f64; 3] {
+    halves.map(|half| half as f64 / 2.0)
+}
+
 fn gcd(a: i64, b: i64) -> i64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
@@ -51,6 +56,8 @@ fn gcd(a: i64, b: i64) -> i64 {
 struct Draft {
     head: String,
     faces: Vec<Face>,
+    /// Spheres: centre and radius in halves, and material.
+    balls: Vec<(Corner, i64, usize)>,
     rest: String,
     /// Number of rays of a path after the first.
     bounces: usize,
@@ -83,12 +90,18 @@ impl Draft {
             } else {
                 "quad"
             };
-            let corner = |c: &Corner| c.map(|half| half as f64 / 2.0);
-            let corners: Vec<[f64; 3]> = face.corners.iter().map(corner).collect();
+            let corners: Vec<[f64; 3]> = face.corners.iter().map(corner_of).collect();
             let _ = writeln!(
                 text,
                 "  - {kind}: {{ vertices: {corners:?}, material: m{} }}",
                 face.material
+            );
+        }
+        for (centre, radius, material) in &self.balls {
+            let (centre, radius) = (corner_of(centre), *radius as f64 / 2.0);
+            let _ = writeln!(
+                text,
+                "  - sphere: {{ center: {centre:?}, radius: {radius:?}, material: m{material} }}"
             );
         }
         text + rest
@@ -255,9 +268,21 @@ fn draft(numbers: &mut Numbers) -> Draft {
          uncompute: {uncompute} }}\nsampling: {{ path_bits: 5, lights: {lights}, depths: [{{ bits: [3, 3] \
          }}{second}] }}\n"
     );
+    let count = [0, 0, 1, 2][numbers.below(4)];
+    let balls = (0..count).map(|_| {
+        let centre = [(); 3].map(|()| numbers.below(9) as i64 - 4);
+        let radius = 1 + numbers.below(4) as i64;
+        (
+            centre,
+            radius,
+            [0, 1, 2, 2, 3, 4, 4, 5, 6][numbers.below(9)],
+        )
+    });
+    let balls = balls.collect();
     Draft {
         head,
         faces,
+        balls,
         rest,
         bounces,
     }

@@ -5,7 +5,8 @@ use crate::common::scene::written;
 use qrt::core::inspect::{Inspection, OraclePixel};
 use qrt::core::oracle::{Oracle, OracleOptions, Oracles};
 use qrt::lab::simulate::{
-    MOST_SUPERPOSED, SimulateError, SimulateOptions, simulate, simulate_film,
+    MOST_ITERATES, MOST_SUPERPOSED, MeanPhase, SimulateError, SimulateOptions, simulate,
+    simulate_film, simulate_mean_phase,
 };
 use qrt::lab::verify::pixel_counts;
 use qrt::prelude::*;
@@ -233,4 +234,74 @@ fn a_circuit_with_too_many_amplitudes_is_refused_before_it_is_compiled() {
     assert_eq!(MOST_SUPERPOSED, 24);
     let text = refused.to_string();
     assert!(text.contains("lower `sampling.path_bits`"), "{text}");
+}
+
+/// Every gate of the mean-phase circuit, beside what the levels of the paths say, at every number of
+/// iterates.
+#[test]
+fn the_mean_phase_of_small_scenes_is_that_of_their_levels() {
+    let mut zeros = Vec::new();
+    for name in ["edge", "lit-wall", "corner", "mirror", "shadow", "slanted"] {
+        let scene = small(name, &[]);
+        let oracles = Oracles::new(&scene);
+        for iterates in (0..=16).chain([64]) {
+            let asked = MeanPhase {
+                iterates,
+                slope: None,
+                reference: None,
+            };
+            let options = SimulateOptions::default();
+            let found = simulate_mean_phase(&oracles, PIXEL, &options, &asked).unwrap();
+            assert!(found.largest_difference() < 1e-12, "{name}: {found:?}");
+            let paths: u64 = found.levels.iter().map(|level| level.paths).sum();
+            assert_eq!(paths, 1 << found.path_bits);
+            assert_eq!(found.queries, if iterates == 0 { 0 } else { iterates + 1 });
+            zeros.push(found.zero()[0]);
+        }
+    }
+    let fringes = zeros.iter().filter(|zero| (*zero - 0.5).abs() > 0.2);
+    assert!(fringes.count() > 10, "{zeros:?}");
+}
+
+#[test]
+fn a_mean_phase_out_of_range_is_refused() {
+    let scene = small("edge", &[]);
+    let refused = |asked: MeanPhase, says: &str| {
+        let options = SimulateOptions::default();
+        let error = simulate_mean_phase(&Oracles::new(&scene), PIXEL, &options, &asked);
+        let error = error.unwrap_err();
+        assert!(error.is_refusal(), "{error}");
+        assert!(error.to_string().contains(says), "{error}");
+    };
+    let good = MeanPhase {
+        iterates: 1,
+        slope: Some(1.0),
+        reference: Some(0.5),
+    };
+    let many = MOST_ITERATES + 1;
+    refused(
+        MeanPhase {
+            iterates: many,
+            ..good
+        },
+        "65537 iterates",
+    );
+    for slope in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(
+            MeanPhase {
+                slope: Some(slope),
+                ..good
+            },
+            "positive, finite slope",
+        );
+    }
+    for reference in [-0.1, 1.1, f64::NAN] {
+        refused(
+            MeanPhase {
+                reference: Some(reference),
+                ..good
+            },
+            "reference from 0 to 1",
+        );
+    }
 }

@@ -354,7 +354,12 @@ fn channels_of_openexr_that_change_its_colours_are_named() {
     );
     let errors = folder.fails(1, &["diff", "plain.exr", "a.exr"]);
     assert!(errors.contains("luminance and chroma"), "{errors}");
-    exr_of(&folder, "a.exr", &["X", "Y", "Z"].map(|name| (name, 0.5)), none);
+    exr_of(
+        &folder,
+        "a.exr",
+        &["X", "Y", "Z"].map(|name| (name, 0.5)),
+        none,
+    );
     let errors = folder.fails(1, &["diff", "plain.exr", "a.exr"]);
     assert!(errors.contains("CIE's X, Y and Z"), "{errors}");
 }

@@ -674,7 +674,8 @@ sampling:
   path_bits: 12
   depths: [{ bits: [10, 10] }, { bits: [10, 10], light: [8, 8] }, { bits: [10, 10], light: [8, 8] }]
 ";
-    let quad = "quad: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1], [-1, 1, -1]], material: lamp }";
+    let quad =
+        "quad: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1], [-1, 1, -1]], material: lamp }";
     let triangle = "triangle: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1]], material: lamp }";
     let matte = "lambertian: { albedo: [0.8, 0.8, 0.8] }";
     for (scatter, face) in [

@@ -5,14 +5,14 @@ use qrt::drawing::{Drawn, Fit, Plot, PlotAxis, Point, Series};
 use qrt::lab::trade::pareto;
 
 /// A table: its columns' names and its rows.
-struct Table {
+pub(super) struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
     /// Reads a table; lines that begin with `#` name its source.
-    fn read(name: &str) -> Self {
+    pub(super) fn read(name: &str) -> Self {
         let file = root().join("book/data").join(name);
         let text = std::fs::read_to_string(&file);
         let text = text.unwrap_or_else(|error| panic!("{}: {error}", file.display()));
@@ -42,7 +42,11 @@ impl Table {
     }
 
     /// Returns the numbers in the columns `of`, from rows whose cells have the values in `asked`.
-    fn numbers<const N: usize>(&self, asked: &[(&str, &str)], of: [&str; N]) -> Vec<[f64; N]> {
+    pub(super) fn numbers<const N: usize>(
+        &self,
+        asked: &[(&str, &str)],
+        of: [&str; N],
+    ) -> Vec<[f64; N]> {
         let columns = of.map(|name| self.column(name));
         let asked: Vec<(usize, &str)> = (asked.iter())
             .map(|(name, value)| (self.column(name), *value))

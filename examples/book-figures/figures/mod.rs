@@ -9,6 +9,7 @@ mod furnace;
 mod gates;
 mod geometry;
 mod grover;
+mod mean_phase;
 mod measured;
 pub(crate) mod pictures;
 mod pixel;
@@ -61,7 +62,7 @@ impl Figure {
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.
-pub(crate) const ALL: [(&str, Make); 44] = [
+pub(crate) const ALL: [(&str, Make); 46] = [
     ("first-picture.png", pictures::first),
     ("noise-strip.png", pictures::noise),
     ("counted-strip.png", pictures::counted),
@@ -103,6 +104,8 @@ pub(crate) const ALL: [(&str, Make); 44] = [
     ("estimators-error.svg", measured::estimators_error),
     ("estimators-rmse.svg", measured::estimators_rmse),
     ("estimators-pixels.svg", measured::estimators_pixels),
+    ("mean-phase-fringe.svg", mean_phase::fringe),
+    ("mean-phase-errors.svg", mean_phase::errors),
     ("rivals.svg", measured::rivals),
     ("trade.svg", measured::trade),
     ("trade-parts.svg", measured::parts),

@@ -15,6 +15,6 @@ pub use count::count;
 pub use inspect::{cost, inspect, oracle_cost, pixel_counts};
 pub use pareto::pareto;
 pub use plan::plan;
-pub use simulate::simulate;
+pub use simulate::{simulate, simulate_mean_phase};
 pub use trade::trade;
 pub use verify::{VerifyFigures, defect, verify};

@@ -1,6 +1,6 @@
 //! A pixel's complete counting circuit, run as amplitudes.
 
-use crate::simulate::Simulation;
+use crate::simulate::{MeanPhaseSimulation, Simulation};
 use qrt_scene::valid::ValidScene;
 use serde_json::{Value, json};
 
@@ -55,5 +55,43 @@ pub fn simulate(scene: &ValidScene, one: &Simulation) -> Value {
             "shots": estimate.shots,
             "radiance": one.radiance(),
         },
+    })
+}
+
+/// Returns the result of `qrt simulate --mean-phase`.
+pub fn simulate_mean_phase(scene: &ValidScene, one: &MeanPhaseSimulation) -> Value {
+    let levels: Vec<Value> = (one.levels.iter())
+        .map(|o| {
+            json!({
+                "level": o.level,
+                "paths": o.paths,
+                "simulated": o.simulated,
+                "theory": o.theory,
+            })
+        })
+        .collect();
+    let [simulated, theory] = one.zero();
+    json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": scene.scene().name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "channel": one.name.channel_name(),
+        "class": one.name.class_name(),
+        "pixel": one.pixel.place,
+        "seed": one.pixel.seed,
+        "iterates": one.iterates,
+        "slope": one.phases.slope(),
+        "reference": one.phases.reference(),
+        "basis_turns": one.basis.as_f64(),
+        "mean": one.mean,
+        "deviation": one.deviation,
+        "qubits": one.qubits,
+        "path_bits": one.path_bits,
+        "gates": one.gates,
+        "queries": one.queries,
+        "zero": { "simulated": simulated, "theory": theory },
+        "levels": levels,
+        "largest_difference": one.largest_difference(),
     })
 }

@@ -103,7 +103,10 @@ fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
 /// mark of the key's own is doubled.
 fn quoted(text: &str) -> Option<(String, usize)> {
     let inner = text.trim_start();
-    let mark = inner.chars().next().filter(|mark| ['"', '\''].contains(mark))?;
+    let mark = inner
+        .chars()
+        .next()
+        .filter(|mark| ['"', '\''].contains(mark))?;
     let inner = &inner[1..];
     let start = text.len() - inner.len();
     let mut key = String::new();

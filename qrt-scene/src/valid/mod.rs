@@ -166,7 +166,10 @@ impl Ball {
 
     /// The place of the sphere in the scene.
     pub(crate) fn place(&self) -> Path {
-        Path::root().key("geometry").item(self.primitive).key("sphere")
+        Path::root()
+            .key("geometry")
+            .item(self.primitive)
+            .key("sphere")
     }
 }
 

@@ -8,7 +8,7 @@ use crate::estimators::{AmplitudeEstimator, Device, Estimate, EstimatorError, Se
 /// paths' colours.
 ///
 /// The run begins with 12 to 24 paths drawn at random: with 12 if it has fewer than 240 queries, and
-/// with none if it has fewer than 60. If their colours favour the mean phase, it draws 4 % of its
+/// with none if it has fewer than 60. If their colours favour the mean phase, it draws 2 % of its
 /// queries in all, and goes on with the mean-phase circuit. If not, it counts, as `adaptive-bayes`
 /// without strata.
 /// `auto` is the same, except that it then chooses the number of strata, too.

@@ -43,7 +43,7 @@ const DEEPEST: u64 = (1 << 40) - 1;
 /// `2 pi 2^-FINER` in all.
 const FINER: u32 = 12;
 /// The fraction of queries that draw paths at random.
-const PILOT: f64 = 0.04;
+const PILOT: f64 = 0.02;
 /// The most such paths of a run that is asked for an error.
 const ASKED: u64 = 48;
 /// The most queries of a run, over the depth that noise leaves intact: the likelihood has one eigenphase,
