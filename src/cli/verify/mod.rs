@@ -190,7 +190,7 @@ impl Found {
 /// Returns advice on a failed check, with the hits of the path whose colour exceeds its bound.
 fn advice(found: &Found, scene: &ValidScene, seed: u64) -> String {
     let Some((model, pixel, id)) = found.beyond_bound() else {
-        return out_of_bounds_advice(None);
+        return "this is a defect of qrt, please report it with the scene".to_owned();
     };
     // Gates that exceed a bound which the integers keep are a defect, however coarse the numbers are.
     let fraction = (model == Model::Fixed).then_some(found.report.fraction);
