@@ -202,10 +202,10 @@ impl<'a> Run<'a> {
             | Estimator::Miqae
             | Estimator::Chebyshev
             | Estimator::RandomDepth
-            | Estimator::AdaptiveBayes => {}
-            // Counted as if it counted every pixel. The mean-phase circuit has another table, of about
-            // 1 % of the oracle, and no comparator.
-            Estimator::Auto => {}
+            | Estimator::AdaptiveBayes
+            // As if it counted every pixel: the mean-phase circuit has another table, of about 1 % of
+            // the oracle, and no comparator.
+            | Estimator::Auto => {}
         }
         let settings = Settings::from_counting(&counting)?;
         let queries = match planned {

@@ -83,7 +83,7 @@ pub(super) fn choose(posterior: &mut Posterior, noise: &Noise, left: u64) -> Mea
         let gain = per_query(rest, candidate);
         if gain > best {
             (best, iterations, taken) = (gain, candidate, 1.0 - rest);
-            posterior.keep(candidate);
+            posterior.keep_likelihood(candidate);
         }
     }
     let held_back = goal < 0.5 * fitting;

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Added to a number below 2^51 and taken off again, this rounds it to an integer.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
-/// What [`TAU`] lacks to a whole turn.
+/// The part of a whole turn that [`TAU`] lacks.
 const REST_OF_TAU: f64 = 2.449_293_598_294_706_4e-16;
 /// Coefficients of `sin(x)/x` in powers of x squared.
 const SINE: [f64; 8] = [

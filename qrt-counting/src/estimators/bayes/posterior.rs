@@ -315,7 +315,7 @@ impl Posterior {
     }
 
     /// Keeps the likelihood of the shot that was last looked at, for when it is made.
-    pub(super) fn keep(&mut self, iterations: u64) {
+    pub(super) fn keep_likelihood(&mut self, iterations: u64) {
         self.chosen.0 = 2 * iterations + 1;
         std::mem::swap(&mut self.cosines, &mut self.chosen.1);
     }

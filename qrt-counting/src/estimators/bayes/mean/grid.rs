@@ -166,7 +166,7 @@ impl Grid {
         let unit = (0.5 * REACH / (gain * deviation)).min(coarsest);
         let unit = unit.min(coherent / MULTIPLES as f64).round();
         let unit = (unit as u64).clamp(1, most);
-        let spread = Moments::of(&self.probabilities);
+        let spread = Moments::new(&self.probabilities);
         let turns = self.turns(unit);
         let mut multiples = Turns::NONE;
         let mut best = 0.0;
@@ -253,7 +253,7 @@ struct Moments {
 
 impl Moments {
     #[inline(always)]
-    fn of(probabilities: &[f64; POINTS]) -> Self {
+    fn new(probabilities: &[f64; POINTS]) -> Self {
         let mut weights = [*probabilities, [0.0; POINTS], [0.0; POINTS]];
         for (point, probability) in probabilities.iter().enumerate() {
             let x = point as f64 - 0.5 * POINTS as f64;
