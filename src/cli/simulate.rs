@@ -325,8 +325,7 @@ fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
         "{scene}: channel {} of pixel {x},{y}, seed {}\n\
          {} qubits: {} path, 1 sign, {} work; {} gates in {} queries; all work qubits 0 at the end\n\
          mean {:.6} and standard deviation {:.6} of the scale; slope {:.4}, reference {:.6}, {} iterates\n\n\
-         {:>5}  {:>7}  {:<21}  {:<21}\n\
-         {:>5}  {:>7}  {:<10}  {:<10} {:<10}  {:<10}\n",
+         {HEAD}",
         one.name.channel_name(),
         one.pixel.seed,
         one.qubits,
@@ -339,22 +338,13 @@ fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
         one.phases.slope(),
         one.phases.reference(),
         one.iterates,
-        "",
-        "",
-        "sign 0",
-        "sign 1",
-        "level",
-        "paths",
-        "simulated",
-        "theory",
-        "simulated",
-        "theory",
+        HEAD = "level    paths  sign 0      theory      sign 1      theory\n",
     );
     for level in &one.levels {
         let ([a, b], [c, d]) = (level.simulated, level.theory);
         let _ = writeln!(
             out,
-            "{:>5}  {:>7}  {a:<10.8}  {c:<10.8} {b:<10.8}  {d:<10.8}",
+            "{:>5}  {:>7}  {a:.8}  {c:.8}  {b:.8}  {d:.8}",
             level.level, level.paths
         );
     }
@@ -364,7 +354,5 @@ fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
         "\nsign 0: {simulated:.8}, theory {theory:.8}\nlargest difference: {:.1e}\n",
         one.largest_difference()
     );
-    out.lines()
-        .map(|line| format!("{}\n", line.trim_end()))
-        .collect()
+    out
 }

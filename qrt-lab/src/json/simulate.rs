@@ -1,6 +1,8 @@
 //! A pixel's complete counting circuit, run as amplitudes.
 
 use crate::simulate::{MeanPhaseSimulation, Simulation};
+use qrt_core::inspect::OraclePixel;
+use qrt_core::oracle::OracleName;
 use qrt_scene::valid::ValidScene;
 use serde_json::{Value, json};
 
@@ -17,15 +19,7 @@ pub fn simulate(scene: &ValidScene, one: &Simulation) -> Value {
         .map(|(y, count)| json!({ "y": y, "count": count }))
         .collect();
     let (report, estimate) = (&one.report, &one.estimate);
-    json!({
-        "version": 1,
-        "qrt": env!("CARGO_PKG_VERSION"),
-        "scene": scene.scene().name,
-        "scene_hash": scene.fingerprint().to_string(),
-        "channel": one.name.channel_name(),
-        "class": one.name.class_name(),
-        "pixel": one.pixel.place,
-        "seed": one.pixel.seed,
+    let found = json!({
         "window": one.window.name(),
         "good": one.good,
         "total": one.total,
@@ -55,7 +49,8 @@ pub fn simulate(scene: &ValidScene, one: &Simulation) -> Value {
             "shots": estimate.shots,
             "radiance": one.radiance(),
         },
-    })
+    });
+    of_pixel(scene, one.name, one.pixel, found)
 }
 
 /// Returns the result of `qrt simulate --mean-phase`.
@@ -71,15 +66,7 @@ pub fn simulate_mean_phase(scene: &ValidScene, one: &MeanPhaseSimulation) -> Val
         })
         .collect();
     let [simulated, theory] = one.zero();
-    json!({
-        "version": 1,
-        "qrt": env!("CARGO_PKG_VERSION"),
-        "scene": scene.scene().name,
-        "scene_hash": scene.fingerprint().to_string(),
-        "channel": one.name.channel_name(),
-        "class": one.name.class_name(),
-        "pixel": one.pixel.place,
-        "seed": one.pixel.seed,
+    let found = json!({
         "iterates": one.iterates,
         "slope": one.phases.slope(),
         "reference": one.phases.reference(),
@@ -93,5 +80,24 @@ pub fn simulate_mean_phase(scene: &ValidScene, one: &MeanPhaseSimulation) -> Val
         "zero": { "simulated": simulated, "theory": theory },
         "levels": levels,
         "largest_difference": one.largest_difference(),
-    })
+    });
+    of_pixel(scene, one.name, one.pixel, found)
+}
+
+/// Puts the names of the scene, the oracle and the pixel before what was `found`.
+fn of_pixel(scene: &ValidScene, name: OracleName, pixel: OraclePixel, found: Value) -> Value {
+    let mut all = json!({
+        "version": 1,
+        "qrt": env!("CARGO_PKG_VERSION"),
+        "scene": scene.scene().name,
+        "scene_hash": scene.fingerprint().to_string(),
+        "channel": name.channel_name(),
+        "class": name.class_name(),
+        "pixel": pixel.place,
+        "seed": pixel.seed,
+    });
+    if let (Value::Object(all), Value::Object(found)) = (&mut all, found) {
+        all.extend(found);
+    }
+    all
 }
