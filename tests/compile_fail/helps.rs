@@ -1,4 +1,4 @@
-//! Tests that what the help of an error says is taken when it is written: the programs of `tests/ui` with
+//! Tests that what the help of an error says is taken when it is written: the programs of `ui` with
 //! their helps applied compile.
 
 use std::fmt::Write as _;
@@ -697,7 +697,7 @@ const NOT_APPLIED: [(&str, &str); 1] = [(
 
 /// Returns the codes in backticks of all helps of a program, as far as they are complete.
 fn helped(name: &str) -> Vec<String> {
-    let shown = std::fs::read_to_string(format!("tests/ui/reversible_{name}.stderr")).unwrap();
+    let shown = std::fs::read_to_string(format!("ui/reversible_{name}.stderr")).unwrap();
     let says = |line: &&str| line.contains("help: write") && !line.contains("such as");
     let helps = shown.lines().filter(says);
     let codes = helps.flat_map(|line| line.split('`').skip(1).step_by(2));
@@ -716,7 +716,7 @@ fn squeezed(text: &str) -> String {
 
 /// Returns a program with its helps applied.
 fn applied(name: &str, edits: &[(&str, &str)]) -> String {
-    let mut text = std::fs::read_to_string(format!("tests/ui/reversible_{name}.rs")).unwrap();
+    let mut text = std::fs::read_to_string(format!("ui/reversible_{name}.rs")).unwrap();
     for (from, to) in edits {
         assert_eq!(text.matches(from).count(), 1, "{name}: {from}\n{text}");
         text = text.replace(from, to);
@@ -730,11 +730,31 @@ fn applied(name: &str, edits: &[(&str, &str)]) -> String {
     text
 }
 
+/// Returns the message of the compiler that is alone where all helps are taken.
+fn alone(path: &Path) -> String {
+    let path = path.display();
+    format!(
+        "\
+error: type `the_rest_is_right` should have an upper camel case name
+ --> {path}:3:8
+  |
+3 | struct the_rest_is_right;
+  |        ^^^^^^^^^^^^^^^^^ help: convert the identifier to upper camel case: `TheRestIsRight`
+  |
+note: the lint level is defined here
+ --> {path}:2:9
+  |
+2 | #![deny(non_camel_case_types)]
+  |         ^^^^^^^^^^^^^^^^^^^^
+"
+    )
+}
+
 /// Every program of `#[reversible]` is in one of the two lists, and all that are applied are one program.
 #[test]
 fn helps_are_taken_when_they_are_written() {
     let mut named: Vec<String> = Vec::new();
-    for entry in std::fs::read_dir("tests/ui").unwrap() {
+    for entry in std::fs::read_dir("ui").unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_stem().unwrap().to_str().unwrap();
         if let (Some(name), true) = (
@@ -750,15 +770,18 @@ fn helps_are_taken_when_they_are_written() {
     listed.sort_unstable();
     assert_eq!(named, listed);
 
-    let mut all = String::from("#![allow(unused, clippy::all)]\n\n");
-    let mut run = String::new();
+    // A name that is denied after all that the compiler refuses: with this error alone, the rest is right. So
+    // nothing need be built to be run.
+    let mut all = String::from(
+        "#![allow(unused)]\n#![deny(non_camel_case_types)]\nstruct the_rest_is_right;\n\n",
+    );
     for (name, edits) in APPLIED {
         let text = applied(name, edits).replace("\nfn main()", "\npub fn main()");
         writeln!(all, "mod r#{name} {{\n{text}}}\n").unwrap();
-        writeln!(run, "    r#{name}::main();").unwrap();
     }
-    writeln!(all, "fn main() {{\n{run}}}").unwrap();
+    all += "fn main() {}\n";
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("helps.rs");
     std::fs::write(&path, all).unwrap();
-    trybuild::TestCases::new().pass(path);
+    std::fs::write(path.with_extension("stderr"), alone(&path)).unwrap();
+    trybuild::TestCases::new().compile_fail(path);
 }

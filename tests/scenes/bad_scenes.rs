@@ -228,7 +228,7 @@ fn every_code_is_shown_by_some_scene() {
         .iter()
         .filter(|row| !all.contains(&format!("error[{}]", row.code)))
         .filter(|row| !ELSEWHERE.contains(&row.code))
-        // The macros have codes of their own: `tests/compile_fail.rs` shows them.
+        // The macros have codes of their own: `tests/compile_fail` shows them.
         .filter(|row| !row.code.starts_with("QRT07") && !row.code.starts_with("QRT08"))
         .collect();
     assert!(unseen.is_empty(), "{unseen:#?}");

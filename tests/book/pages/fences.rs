@@ -39,7 +39,7 @@ fn check(fence: &Fence, next: Option<&Fence>) -> Result<(), String> {
         "rust" => Err("an included program is shown by `rust,ignore`".to_owned()),
         "rust,ignore" => match alone {
             Some(include) if include.path.starts_with("examples/") => Ok(()),
-            Some(include) if include.path.starts_with("tests/ui/") => {
+            Some(include) if include.path.starts_with("tests/compile_fail/ui/") => {
                 let words = include
                     .path
                     .strip_suffix(".rs")
@@ -55,7 +55,10 @@ fn check(fence: &Fence, next: Option<&Fence>) -> Result<(), String> {
                     Err("the compiler's words do not follow this program".to_owned())
                 }
             }
-            _ => Err("`rust,ignore` holds one include, of `examples` or `tests/ui`".to_owned()),
+            _ => Err(
+                "`rust,ignore` holds one include, of `examples` or `tests/compile_fail/ui`"
+                    .to_owned(),
+            ),
         },
         "python" => match alone {
             Some(include) if include.path.starts_with("python/examples/") => Ok(()),
@@ -139,7 +142,7 @@ mod tests {
             "```rust,ignore\n{{#include ../../examples/scene.rs:nowhere}}\n```\n",
             "```rust,ignore\n{{#include ../../examples/scene.rs:1:100000}}\n```\n",
             "```rust\n{{#include ../../examples/scene.rs}}\n```\n",
-            "```rust,ignore\n{{#include ../../tests/ui/reversible_while.rs}}\n```\n",
+            "```rust,ignore\n{{#include ../../tests/compile_fail/ui/reversible_while.rs}}\n```\n",
             "```ruts\nlet x = 1;\n```\n",
         ] {
             assert_eq!(told(wrong).len(), 1, "{wrong}");
@@ -158,8 +161,8 @@ mod tests {
     fn a_program_that_does_not_compile_stands_above_its_own_error() {
         let pair = |rs: &str, stderr: &str| {
             format!(
-                "```rust,ignore\n{{{{#include ../../tests/ui/{rs}.rs}}}}\n```\n\n\
-                 ```text\n{{{{#include ../../tests/ui/{stderr}.stderr}}}}\n```\n"
+                "```rust,ignore\n{{{{#include ../../tests/compile_fail/ui/{rs}.rs}}}}\n```\n\n\
+                 ```text\n{{{{#include ../../tests/compile_fail/ui/{stderr}.stderr}}}}\n```\n"
             )
         };
         assert_eq!(told(&pair("reversible_while", "reversible_while")), [""; 0]);

@@ -35,8 +35,12 @@ fn collected() -> BTreeMap<String, String> {
             *old = text;
         }
     };
-    for (folder, end) in [("tests/bad_scenes", "txt"), ("tests/ui", "stderr")] {
-        let mut files: Vec<_> = fs::read_dir(folder)
+    // The compiler names programs from their package's folder on.
+    for (package, folder, end) in [
+        ("", "tests/bad_scenes", "txt"),
+        ("tests/compile_fail", "ui", "stderr"),
+    ] {
+        let mut files: Vec<_> = fs::read_dir(Path::new(package).join(folder))
             .unwrap()
             .map(|entry| entry.unwrap().path())
             .filter(|path| path.extension().is_some_and(|found| found == end))
@@ -46,7 +50,7 @@ fn collected() -> BTreeMap<String, String> {
             let text = fs::read_to_string(file).unwrap();
             let text = text
                 .replace(&format!("{folder}/"), "")
-                .replace(folder, "scenes");
+                .replace("tests/bad_scenes", "scenes");
             for (code, report) in split(&text) {
                 keep(code, report);
             }

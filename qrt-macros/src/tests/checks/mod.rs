@@ -1,4 +1,4 @@
-//! Tests that no check of the macros can be removed unnoticed. A program of `tests/ui` reaches each
+//! Tests that no check of the macros can be removed unnoticed. A program of `tests/compile_fail/ui` reaches each
 //! place in the source that reports an error. The errors of a program are those in the file beside
 //! it, which the compiler must show.
 
@@ -60,7 +60,7 @@ fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn every_check_is_failed_by_some_program() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/compile_fail/ui");
     let mut programs = Vec::new();
     rust_files(&folder, &mut programs);
     let mut missed = places();

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use std::path::Path;
 
-/// A program of `tests/ui`, whose macros run in the order of the text.
+/// A program of `tests/compile_fail/ui`, whose macros run in the order of the text.
 pub(super) struct Program<'a> {
     /// The folder of the files that it names.
     pub(super) folder: &'a Path,
