@@ -269,7 +269,7 @@ impl Moments {
     #[inline(always)]
     fn after(&self, turns: &Turns, visibility: f64) -> (f64, f64) {
         let [sum, first, second] = self.sums;
-        let variance = second - first * first;
+        let variance = second - first * first / sum;
         let cosines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.cosines));
         let sines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.sines));
         let mut best = (1.0, FRAC_PI_2);
