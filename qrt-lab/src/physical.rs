@@ -11,7 +11,8 @@
 //! * An estimator with a phase register runs the whole circuit B times, with T - 1 queries each. An
 //!   estimator without one runs the planned number of iterates, or else at most (T - 1) B, without
 //!   a control. It measures the index at most that number of times, because a shot takes at least
-//!   one query. Strata fix qubits of the index. This saves part of O_0, and the counts ignore the
+//!   one query. `auto` is counted as if it counted every pixel: the mean-phase circuit has no comparator,
+//!   and a table of about 1 % of the oracle. Strata fix qubits of the index. This saves part of O_0, and the counts ignore the
 //!   saving.
 //! * All channels of all pixels are counted one after another on the same qubits, except those
 //!   whose proven bound is black. The oracle of all pixels is the oracle of one class of pixels,
@@ -32,7 +33,7 @@ pub enum PhysicalError {
     /// The scene has no circuit.
     #[error("{0}")]
     Oracle(OracleError),
-    /// The scene's estimator runs no iterates of G, or other circuits as well.
+    /// The scene's estimator runs no iterates of G, or always other circuits as well.
     #[error(
         "the estimator `{0}` does not only iterate G, so that nothing is known of what it would run: \
          choose another `counting.estimator`"
@@ -203,8 +204,6 @@ impl<'a> Run<'a> {
             | Estimator::Chebyshev
             | Estimator::RandomDepth
             | Estimator::AdaptiveBayes
-            // As if it counted every pixel: the mean-phase circuit has another table, of about 1 % of
-            // the oracle, and no comparator.
             | Estimator::Auto => {}
         }
         let settings = Settings::from_counting(&counting)?;

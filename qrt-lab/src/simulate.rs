@@ -6,7 +6,7 @@
 //! query. Beside its outcomes stand those that theory predicts from S of N, where the fixed machine
 //! counts S path by path.
 //!
-//! [`simulate_mean_phase`] runs the circuit of the mean phase in the same way.
+//! [`simulate_mean_phase`] runs the circuit of the mean phase, whose ancillas are checked at its end.
 
 mod mean_phase;
 
@@ -14,7 +14,7 @@ pub use mean_phase::{
     LevelOutcome, MOST_ITERATES, MeanPhase, MeanPhaseSimulation, simulate_mean_phase,
 };
 
-use qrt_circuit::quantum::{CountingCircuit, QuantumError};
+use qrt_circuit::quantum::{CountingCircuit, MAX_LEVEL_BITS, QuantumError};
 use qrt_core::inspect::OraclePixel;
 use qrt_core::oracle::{OracleError, OracleName, Oracles};
 use qrt_counting::estimators::{DEFAULT_CONFIDENCE, Estimate, EstimatorError, WindowedCounting};
@@ -150,6 +150,18 @@ pub enum SimulateError {
     /// Too many iterates of the mean-phase circuit.
     #[error("{0} iterates of the mean-phase circuit; at most {MOST_ITERATES} are simulated")]
     TooManyIterates(u64),
+    /// Too many paths for the mean-phase circuit.
+    #[error(
+        "a mean-phase circuit with {0} path bits and a sign in superposition; at most {MOST_SUPERPOSED} \
+         together are simulated: lower `sampling.path_bits`"
+    )]
+    TooManyPaths(u32),
+    /// Levels of too many bits for a table of phases.
+    #[error(
+        "phases are looked up by levels of at most {MAX_LEVEL_BITS} bits, and the comparator has {0}: lower \
+         `comparator.bits`"
+    )]
+    LevelBits(u32),
     /// The circuit cannot be made.
     #[error(transparent)]
     Circuit(#[from] QuantumError),
@@ -184,6 +196,8 @@ impl SimulateError {
             Self::Oracle(_)
                 | Self::TooManySuperposed { .. }
                 | Self::TooManyIterates(_)
+                | Self::TooManyPaths(_)
+                | Self::LevelBits(_)
                 | Self::WouldNotFit(_)
                 | Self::StateVector(
                     StateVectorError::TooManyStates { .. }

@@ -36,7 +36,8 @@ const BAR: f64 = 32.0;
 /// a sparse state vector; after each query all ancillas are read as 0. Beside the probability of each
 /// outcome y stands the one that theory predicts from S of N, where S is counted path by path.
 ///
-/// The path index, the comparator and the phase register together have at most 24 qubits. The scenes in
+/// The path index, the comparator and the phase register together have at most 24 qubits, as have the
+/// path index and the sign of the mean phase. The scenes in
 /// scenes-yaml/small/ are that small.
 ///
 /// With --mean-phase, it is the circuit of the mean phase: K iterates, whose phase is the mean of the
@@ -319,12 +320,21 @@ fn text(scene: &str, one: &Simulation) -> String {
     out
 }
 
+/// A positive number to four decimals, or in powers of ten.
+fn short(number: f64) -> String {
+    if (1e-2..1e6).contains(&number) {
+        format!("{number:.4}")
+    } else {
+        format!("{number:.4e}")
+    }
+}
+
 fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
     let [x, y] = one.pixel.place;
     let mut out = format!(
         "{scene}: channel {} of pixel {x},{y}, seed {}\n\
          {} qubits: {} path, 1 sign, {} work; {} gates in {} queries; all work qubits 0 at the end\n\
-         mean {:.6} and standard deviation {:.6} of the scale; slope {:.4}, reference {:.6}, {} iterates\n\n\
+         mean {:.6} and standard deviation {:.6} of the scale; slope {}, reference {:.6}, {} iterates\n\n\
          {HEAD}",
         one.name.channel_name(),
         one.pixel.seed,
@@ -335,7 +345,7 @@ fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
         one.queries,
         one.mean,
         one.deviation,
-        one.phases.slope(),
+        short(one.phases.slope()),
         one.phases.reference(),
         one.iterates,
         HEAD = "level    paths  sign 0      theory      sign 1      theory\n",

@@ -278,6 +278,19 @@ fn a_mean_phase_out_of_range_is_refused() {
         slope: Some(1.0),
         reference: Some(0.5),
     };
+    for (set, says) in [
+        ("sampling.path_bits=26", "lower `sampling.path_bits`"),
+        ("comparator.bits=13", "lower `comparator.bits`"),
+    ] {
+        let scene = small("edge", &[set]);
+        let options = SimulateOptions::default();
+        let error = simulate_mean_phase(&Oracles::new(&scene), PIXEL, &options, &good);
+        let error = error.unwrap_err();
+        assert!(
+            error.is_refusal() && error.to_string().contains(says),
+            "{error}"
+        );
+    }
     let many = MOST_ITERATES + 1;
     refused(
         MeanPhase {

@@ -1,7 +1,7 @@
 //! A pixel's mean-phase circuit, run as amplitudes.
 
-use super::{SimulateError, SimulateOptions};
-use qrt_circuit::quantum::{LevelPhases, MeanPhaseCircuit, Turns};
+use super::{MOST_SUPERPOSED, SimulateError, SimulateOptions};
+use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS, MeanPhaseCircuit, Turns};
 use qrt_core::inspect::OraclePixel;
 use qrt_core::oracle::{OracleName, Oracles};
 use qrt_counting::{Histogram, mean_phase_probabilities};
@@ -15,6 +15,8 @@ const SLOPE: f64 = 0.6;
 const BELOW: f64 = 0.5;
 /// Bits of a phase beyond those of the number of iterates.
 const FINER: u32 = 10;
+/// Number of paths that are traced between two looks at the cancel flag.
+const AT_A_TIME: usize = 1 << 14;
 /// The largest probability that an ancilla is read as 1, from rounding.
 const CLEAN: f64 = 1e-20;
 
@@ -62,7 +64,7 @@ pub struct MeanPhaseSimulation {
     pub iterates: u64,
     /// The angle at which the sign qubit is measured.
     pub basis: Turns,
-    /// The mean of the paths' colours over the scale, and their standard deviation.
+    /// The mean of the paths' colours over the scale.
     pub mean: f64,
     /// The standard deviation of the paths' colours over the scale.
     pub deviation: f64,
@@ -117,18 +119,37 @@ pub fn simulate_mean_phase(
     if asked.iterates > MOST_ITERATES {
         return Err(SimulateError::TooManyIterates(asked.iterates));
     }
+    // Compiling may take long: what can be refused before is.
+    let written = oracles.scene().scene();
+    let (path_bits, bits) = (written.sampling.path_bits, written.comparator.bits);
+    if path_bits + 1 > MOST_SUPERPOSED {
+        return Err(SimulateError::TooManyPaths(path_bits));
+    }
+    if bits > MAX_LEVEL_BITS {
+        return Err(SimulateError::LevelBits(bits));
+    }
+    let phase_bits = asked.iterates.max(1).ilog2() + FINER;
+    LevelPhases::new(
+        asked.slope.unwrap_or(1.0),
+        asked.reference.unwrap_or(0.0),
+        bits,
+        phase_bits,
+    )?;
     let (alone, name) = super::oracle_of(oracles, pixel, options)?;
     let oracle = alone.channel(name.channel, name.class)?;
-    let (path_bits, bits) = (oracle.points.path_bits(), oracle.comparator_bits());
-    options
-        .memory
-        .keep_states(oracle.qubits(), path_bits + 1, 1)?;
+    // Levels and outcomes of all paths take at most as much as the amplitudes.
+    let qubits = oracle.qubits() + phase_bits;
+    options.memory.keep_states(qubits, path_bits + 2, 1)?;
     let bound = oracle.program_at(pixel.seed, pixel.place);
-    let paths = run_paths::on_fixed(&bound, 0..bound.paths())?;
-    let levels: Vec<u64> = paths
-        .iter()
-        .filter_map(|path| path.first().copied())
-        .collect();
+    let mut levels: Vec<u64> = Vec::new();
+    for first in (0..bound.paths()).step_by(AT_A_TIME) {
+        if options.workers.cancelled() {
+            return Err(SimulateError::Interrupted);
+        }
+        let end = bound.paths().min(first + AT_A_TIME as u64);
+        let paths = run_paths::on_fixed(&bound, first..end)?;
+        levels.extend(paths.iter().filter_map(|path| path.first()));
+    }
     let mut histogram = Histogram::new(bits);
     histogram.add_all(levels.iter().copied());
     let all: Vec<(u64, u64)> = histogram.levels().collect();
@@ -141,7 +162,6 @@ pub fn simulate_mean_phase(
     let reference = asked
         .reference
         .unwrap_or((mean - BELOW * deviation).max(0.0));
-    let phase_bits = asked.iterates.max(1).ilog2() + FINER;
     let phases = LevelPhases::new(slope, reference, bits, phase_bits)?;
     // A quarter turn.
     let basis = Turns::new(1, 2);
@@ -151,7 +171,7 @@ pub fn simulate_mean_phase(
     let mut gates = 0_u64;
     circuit.apply(&mut |gate| {
         gates += 1;
-        if gates.is_multiple_of(1 << 12) && options.workers.cancelled() {
+        if gates.is_multiple_of(1 << 6) && options.workers.cancelled() {
             return Err(SimulateError::Interrupted);
         }
         machine.gate(gate).map_err(SimulateError::from)
