@@ -41,6 +41,17 @@ impl SceneArgs {
     pub(crate) fn load(&self) -> Result<Loaded, Failure> {
         load(&self.scene, &self.sets, &self.allow_files, self.memory())
     }
+
+    /// Reads the scene and checks it as one whose estimator is `estimator`, if there is one, where other keys of
+    /// `counting` are set beside it.
+    pub(crate) fn load_with(&self, estimator: Option<&str>) -> Result<Loaded, Failure> {
+        let mut sets = self.sets.clone();
+        let beside = sets.iter().any(|set| set.starts_with("counting"));
+        if let Some(name) = estimator.filter(|name| beside && *name != "exact") {
+            sets.push(format!("counting.estimator={name}"));
+        }
+        load(&self.scene, &sets, &self.allow_files, self.memory())
+    }
 }
 
 /// Reads `scene` with the keys `sets` overridden and checks it; it may read files below `allow_files`.

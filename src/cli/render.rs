@@ -10,6 +10,7 @@ use super::watch::watch;
 use super::{interrupt, memory, path, terminal, time};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use qrt_core::inspect::grouped;
 use qrt_counting::estimators::{Noise, NoiseError};
 use qrt_counting::{Comparators, MAX_COMPARATOR_BITS};
 use qrt_runtime::Prepared;
@@ -25,6 +26,7 @@ use qrt_runtime::search::Guess;
 use qrt_runtime::workers::Workers;
 use qrt_scene::Estimator;
 use qrt_scene::front::Loaded;
+use qrt_scene::syntax::codes;
 use qrt_scene::valid::ValidScene;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -253,7 +255,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
         outputs.checkpoint = None;
     }
     outputs.keep_off([&*args.scene.scene])?;
-    let loaded = args.scene.load()?;
+    let loaded = args.scene.load_with(args.estimator.as_deref())?;
     let scene = &loaded.valid;
     files.extend(scene.files().iter().cloned());
     // Check the outputs before the work, not after it.
@@ -433,7 +435,7 @@ fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>
     ));
 }
 
-/// Tells why a picture is black if its paths carry light: no colour reaches the comparator's first
+/// Tells why a picture is black: no path leads to a lamp, or no colour reaches the comparator's first
 /// threshold.
 fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
     /// Pixels and paths of each that are looked at.
@@ -463,7 +465,18 @@ fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
     let (bounds, limits) = (machine.stage().bound(), machine.stage().limit());
     let rounded = |c: usize| greatest[c] <= limits[c] - bounds[c];
     if (0..3).all(rounded) {
-        // Rounding left a trace of a lamp that faces away.
+        // At most a trace that rounding left of a lamp that faces away. The scene may have a warning.
+        let warned = scene
+            .warnings()
+            .iter()
+            .any(|one| one.code() == codes::BLACK);
+        if !warned {
+            terminal::note(&format!(
+                "the picture is black: none of {} paths that were tried has light; is a lamp or the camera \
+                 enclosed, or does a lamp show its back?",
+                grouped(pixels.len() as u64 * paths)
+            ));
+        }
         return;
     }
     let counts = |(greatest, bound): (f64, f64)| {

@@ -119,6 +119,14 @@ fn colours_that_are_not_read_are_refused_by_name() {
             &["`cICP`", "primaries 9, transfer 16"],
         ),
         (
+            vec![chunk(*b"cICP", &[1, 13, 1, 1])],
+            &["`cICP`", "matrix 1"],
+        ),
+        (
+            vec![chunk(*b"cICP", &[1, 13, 0, 2])],
+            &["`cICP`", "full range 2"],
+        ),
+        (
             vec![chunk(*b"cICP", &[1, 13, 0, 0])],
             &["`cICP`", "full range 0"],
         ),

@@ -3,6 +3,8 @@
 use crate::common::command::Folder;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude as openexr;
+use qrt::runtime::path_machines::Real;
+use qrt::scene::front::parse;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
@@ -678,15 +680,21 @@ sampling:
         "quad: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1], [-1, 1, -1]], material: lamp }";
     let triangle = "triangle: { vertices: [[-1, 1, 1], [1, 1, 1], [1, 1, -1]], material: lamp }";
     let matte = "lambertian: { albedo: [0.8, 0.8, 0.8] }";
+    let mut traces = 0;
     for (scatter, face) in [
         (matte, quad),
         (matte, triangle),
         ("mirror: { reflectance: [0.9, 0.8, 0.7] }", quad),
     ] {
-        let folder = Folder::with(
-            "away.yaml",
-            &scene.replace("SCATTER", scatter).replace("FACE", face),
+        let scene = scene.replace("SCATTER", scatter).replace("FACE", face);
+        let loaded = parse(&scene, "away.yaml", &[], "".as_ref()).unwrap();
+        let pixels: Vec<[u32; 2]> = (0..64).map(|n| [n % 8, n / 8]).collect();
+        let sums = Real::new(&loaded.valid, 0).unwrap().sums(&pixels);
+        traces += u32::from(
+            sums.iter()
+                .any(|sum| sum.colour.iter().any(|&colour| colour > 0.0)),
         );
+        let folder = Folder::with("away.yaml", &scene);
         for model in ["real", "fixed"] {
             let output = folder.qrt(&["render", "away.yaml", "-o", "a.exr", "--model", model]);
             let errors = String::from_utf8(output.stderr).unwrap();
@@ -695,6 +703,77 @@ sampling:
             assert!(!errors.contains("carry light"), "{model}: {errors}");
             let (_, pixels, _) = read_exr(&folder.path("a.exr"));
             assert!(pixels.iter().flatten().all(|&c| c == 0.0), "{model}");
+        }
+    }
+    assert!(traces > 0, "rounding leaves none");
+}
+
+#[test]
+fn an_estimator_is_judged_with_the_keys_that_are_set_beside_it() {
+    let folder = Folder::with("box.yaml", BOX);
+    let run = |scene: &str, estimator: &str| {
+        let strata = format!("counting={{ phase_bits: 6, estimator: {scene} }}");
+        let sets = ["--set", &strata, "--set", "counting.strata=4"];
+        let own = [
+            "render",
+            "box.yaml",
+            "-o",
+            "s.png",
+            "--estimator",
+            estimator,
+        ];
+        let output = folder.qrt(&[&own[..], &sets].concat());
+        let errors = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), errors)
+    };
+    let (code, errors) = run("sine", "auto");
+    assert_eq!(code, Some(0), "{errors}");
+    let (code, errors) = run("auto", "sine");
+    assert!(code == Some(2) && errors.contains("strata"), "{errors}");
+    let (code, errors) = run("auto", "exact");
+    assert_eq!(code, Some(0), "{errors}");
+}
+
+/// An enclosed lamp and an enclosed camera make black pictures, of which the scene has no warning.
+#[test]
+fn a_picture_without_light_says_so() {
+    let scene = "name: shut
+camera: { perspective: { eye: EYE, target: [0, 0, 0], vfov: 40 } }
+film: { width: 8, height: 8 }
+materials:
+  wall: { lambertian: { albedo: [0.8, 0.8, 0.8] } }
+  lamp: { emitter: { radiance: [3, 3, 3] } }
+geometry:
+  - sphere: { center: [0, 0, 0], radius: 0.5, material: lamp }
+  - OTHER
+  - quad: { vertices: [[-4, -4, -3], [4, -4, -3], [4, 4, -3], [-4, 4, -3]], material: wall }
+sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6] }] }
+counting: { phase_bits: 6 }
+";
+    let shut = "box: { min: [-1, -1, -1], max: [1, 1, 1], material: wall }";
+    let open = "sphere: { center: [3, 0, -2], radius: 0.5, material: wall }";
+    for (eye, other, black) in [
+        ("[0, 0, 5]", shut, true),
+        ("[0, 0.1, 0.2]", open, true),
+        ("[0, 0, 5]", open, false),
+    ] {
+        let folder = Folder::with(
+            "shut.yaml",
+            &scene.replace("EYE", eye).replace("OTHER", other),
+        );
+        for model in ["real", "fixed"] {
+            let output = folder.qrt(&["render", "shut.yaml", "-o", "a.exr", "--model", model]);
+            let errors = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(0), "{errors}");
+            let (_, pixels, _) = read_exr(&folder.path("a.exr"));
+            assert_eq!(
+                pixels.iter().flatten().all(|&c| c == 0.0),
+                black,
+                "{eye} {model}"
+            );
+            let told = errors
+                .contains("the picture is black: none of 4,096 paths that were tried has light");
+            assert_eq!(told, black, "{eye} {model}: {errors}");
         }
     }
 }

@@ -28,7 +28,13 @@ pub(in crate::cli::diff) fn png(path: &Path, memory: Memory) -> Result<Picture, 
     options.set_skip_ancillary_crc_failures(false);
     let mut decoder = png::Decoder::new_with_options(file, options);
     decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(failed)?;
+    let mut reader = decoder
+        .read_info()
+        .map_err(|error| match (&transfer, error) {
+            // The decoder takes a `cICP` that it does not know for an error of the file system.
+            (Err(why), DecodingError::IoError(_)) => refused(path, why),
+            (_, error) => failed(error),
+        })?;
     let transfer = transfer.map_err(|why| refused(path, &why))?;
     let (width, height) = reader.info().size();
     check_size(path, [width.into(), height.into()], memory)?;
