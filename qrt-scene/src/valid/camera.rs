@@ -9,8 +9,10 @@ use crate::syntax::{Camera as Fault, Path, Problem, Problems};
 /// right.
 const LEAST_SINE: f64 = 1e-9;
 /// Minimum distance of an eye from the surface of a sphere, relative to its radius: nearer than this,
-/// rounding decides if the eye is inside.
-const LEAST_DISTANCE: f64 = 1e-6;
+/// rounding in the circuit's numbers decides if the eye is inside.
+const LEAST_DISTANCE: f64 = 1e-4;
+/// Minimum diameter of a lens whose points are at many distances, relative to the radius.
+const LEAST_LENS: f64 = 100.0 * LEAST_DISTANCE;
 
 pub(super) fn check(camera: &Camera, problems: &mut Problems) {
     let path = Path::root().key("camera").key(camera.kind());
@@ -40,19 +42,20 @@ pub(super) fn check(camera: &Camera, problems: &mut Problems) {
     }
 }
 
-/// Refuses an eye on the surface of a sphere. Rays of a lens, and of an orthographic camera, start at
-/// many points, of which hardly any is on it.
+/// Refuses an eye on the surface of a sphere. Rays of an orthographic camera, and of a lens that is not
+/// tiny, start at many points, of which hardly any is on it.
 pub(super) fn check_spheres(camera: &Camera, balls: &[Ball], problems: &mut Problems) {
     let Camera::Perspective(part) = camera else {
         return;
     };
     let eye = Path::root().key("camera").key(camera.kind()).key("eye");
-    if part.lens.is_some() || problems.touches(&eye) {
+    if problems.touches(&eye) {
         return;
     }
+    let aperture = part.lens.map_or(0.0, |lens| lens.aperture);
     let on = |ball: &&Ball| {
         let height = (part.eye - ball.centre).length() - ball.radius;
-        height.abs() < LEAST_DISTANCE * ball.radius
+        height.abs() < LEAST_DISTANCE * ball.radius && aperture < LEAST_LENS * ball.radius
     };
     if let Some(ball) = balls.iter().find(on) {
         let problem = Problem::new(eye, Fault::OnSphere);

@@ -110,8 +110,8 @@ problems! {
     Glass {
         Touches = GLASS_TOUCHES
             "faces of glass lie on each other: a ray crosses the two as one, and is refracted once"
-            label "covers a face listed before"
-            help "leave a gap between the pieces, or let one reach into the other" also "the other face";
+            label "covers one listed before"
+            help "leave a gap between the pieces, or let one reach into the other" also "the other";
     }
 
     /// Problems with a mesh after its transform.
