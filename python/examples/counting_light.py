@@ -25,7 +25,7 @@ comparator: { bits: 8 }
 scene = qrt.parse(text)
 counted = scene.render(seed=1)
 counted
-#> <qrt.Picture of "lamp", 24 x 18 pixels, real, adaptive-bayes>
+#> <qrt.Picture of "lamp", 24 x 18 pixels, real, auto>
 
 # %% [markdown]
 # The same, with all paths added up, is what counting estimates. The difference is its error, which more

@@ -117,6 +117,8 @@ fn set_reaches_any_name_in_quotation_marks() {
         ("\"", "this quotation mark is not closed"),
         ("\"\\", "this quotation mark is not closed"),
         ("a.\"b\\\"=3", "this quotation mark is not closed"),
+        ("'=1", "this quotation mark is not closed"),
+        ("materials.'a''=1", "this quotation mark is not closed"),
     ] {
         let errors = folder.fails(2, &["render", "names.yaml", "--set", set]);
         assert!(errors.contains(says), "{set}: {errors}");
