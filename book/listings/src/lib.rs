@@ -45,6 +45,7 @@ pages! {
     cost = "cost.md",
     accuracy = "accuracy.md",
     extremes = "extremes.md",
+    open_problems = "open-problems.md",
     what_qrt_draws = "what-qrt-draws.md",
     yaml = "yaml.md",
     format = "format.md",
