@@ -490,3 +490,54 @@ fn comments_stay_on_their_lines() {
     let refused = Export::new(&counting, CircuitPart::Oracle, &[("path", 3)]).unwrap_err();
     assert_eq!(refused.to_string(), "parts of 3 bits in an index of 2");
 }
+
+/// Reads the circuit back and runs it: its outcomes are those that `qrt simulate` measures, with the table of the
+/// pixel's own paths and with another.
+#[test]
+fn the_mean_phase_circuit_measures_what_theory_says() {
+    let folder = folder();
+    for table in ["", "--slope 1.3 --reference 0.2"] {
+        let asked = format!("--pixel 1,1 --channel g --seed 3 {table}");
+        let (circuit, answer) =
+            exported(&folder, &format!("--part mean-phase --iterates 2 {asked}"));
+        assert_eq!(answer["part"], "mean-phase");
+        assert_eq!(answer["queries"], 3);
+        let simulate = format!("simulate wall.yaml --mean-phase 2 --json {asked}");
+        let simulated: Value = serde_json::from_str(&folder.works(&words(&simulate))).unwrap();
+        let mean_phase = &answer["mean_phase"];
+        assert_eq!(mean_phase["iterates"], 2);
+        for key in ["slope", "reference"] {
+            assert_eq!(mean_phase[key], simulated[key], "{key}");
+        }
+        let mut machine = Sparse::new(circuit.qubits);
+        circuit.run(&mut machine);
+        let found = machine.distribution(&circuit.outcome).unwrap();
+        let levels = simulated["levels"].as_array().unwrap();
+        for bit in [0, 1] {
+            let one: f64 = found.iter().skip(bit).step_by(2).sum();
+            let theory = levels
+                .iter()
+                .map(|level| level["theory"][bit].as_f64().unwrap());
+            let theory: f64 = theory.sum();
+            assert!((one - theory).abs() < 1e-12, "sign {bit}: {one} {theory}");
+        }
+    }
+    for (arguments, says) in [
+        ("--iterates 2", "--part mean-phase"),
+        ("--part grover --slope 1", "--part mean-phase"),
+        (
+            "--part mean-phase --stratum 0/2",
+            "--part grover or counting",
+        ),
+        ("--part mean-phase --slope 0", "slope"),
+        ("--part mean-phase --reference 2", "reference"),
+        (
+            "--part mean-phase --set comparator.bits=13",
+            "lower `comparator.bits`",
+        ),
+        ("--part mean-phase --iterates 9000000", "--max-gates"),
+    ] {
+        let errors = folder.fails(2, &words(&format!("export wall.yaml {arguments}")));
+        assert!(errors.contains(says), "{arguments}: {errors}");
+    }
+}

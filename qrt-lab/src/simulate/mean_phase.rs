@@ -1,12 +1,13 @@
 //! A pixel's mean-phase circuit, run as amplitudes.
 
 use super::{MOST_SUPERPOSED, SimulateError, SimulateOptions};
-use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS, MeanPhaseCircuit, Turns};
+use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS, MeanPhaseCircuit, QuantumError, Turns};
 use qrt_core::inspect::OraclePixel;
-use qrt_core::oracle::{OracleName, Oracles};
+use qrt_core::oracle::{Oracle, OracleName, Oracles};
 use qrt_counting::{Histogram, mean_phase_probabilities};
 use qrt_machines::statevector::{Sparse, StateVector, StateVectorError};
 use qrt_runtime::path_machines::run_paths;
+use qrt_runtime::workers::Workers;
 use std::f64::consts::TAU;
 
 /// The slope of a table, in units of the inverse standard deviation: the estimators' own.
@@ -31,6 +32,67 @@ pub struct MeanPhase {
     /// The colour of phase 0, in `0 ..= 1` of the scale. Without it, half a standard deviation below
     /// the mean.
     pub reference: Option<f64>,
+}
+
+impl MeanPhase {
+    /// Returns the table of phases of a pixel's circuit. Traces the pixel's paths on integers if the slope or the
+    /// reference is theirs.
+    ///
+    /// # Errors
+    /// [`SimulateError::LevelBits`]; [`SimulateError::Circuit`] if slope or reference are out of range, or if
+    /// phases have too many bits; [`SimulateError::Interrupted`].
+    pub fn table(
+        &self,
+        oracle: &Oracle,
+        pixel: OraclePixel,
+        workers: &Workers<'_>,
+    ) -> Result<LevelPhases, SimulateError> {
+        let bits = oracle.comparator_bits();
+        let known = self.known(bits)?;
+        if self.slope.is_some() && self.reference.is_some() {
+            return Ok(known);
+        }
+        let (_, histogram) = traced(oracle, pixel, workers)?;
+        Ok(self.for_levels(&histogram, bits)?)
+    }
+
+    /// The angle at which the sign qubit is measured: a quarter turn, at which a small phase changes its outcome
+    /// most.
+    pub fn basis(&self) -> Turns {
+        Turns::new(1, 2)
+    }
+
+    /// The table of the slope and the reference that are given, to refuse those out of range before paths are
+    /// traced.
+    fn known(&self, bits: u32) -> Result<LevelPhases, SimulateError> {
+        if bits > MAX_LEVEL_BITS {
+            return Err(SimulateError::LevelBits(bits));
+        }
+        let given = (self.slope.unwrap_or(1.0), self.reference.unwrap_or(0.0));
+        Ok(self.phases(given, bits)?)
+    }
+
+    fn phases(
+        &self,
+        (slope, reference): (f64, f64),
+        bits: u32,
+    ) -> Result<LevelPhases, QuantumError> {
+        let phase_bits = self.iterates.max(1).ilog2() + FINER;
+        LevelPhases::new(slope, reference, bits, phase_bits)
+    }
+
+    /// The table for paths of these levels, with the number of paths of each.
+    fn for_levels(&self, levels: &[(u64, u64)], bits: u32) -> Result<LevelPhases, QuantumError> {
+        let (mean, deviation) = moments(levels, bits);
+        let own = if deviation > 0.0 {
+            SLOPE / deviation
+        } else {
+            1.0
+        };
+        let below = (mean - BELOW * deviation).max(0.0);
+        let slope = self.slope.unwrap_or(own);
+        self.phases((slope, self.reference.unwrap_or(below)), bits)
+    }
 }
 
 /// The largest number of iterates that is simulated.
@@ -100,7 +162,7 @@ impl MeanPhaseSimulation {
 
 /// Runs the mean-phase circuit of a pixel as amplitudes, with all ancillas.
 ///
-/// The sign qubit is measured at a right angle, at which a small phase changes its outcome most.
+/// The sign qubit is measured at the angle of [`MeanPhase::basis`].
 ///
 /// # Errors
 /// See [`SimulateError`]; [`SimulateError::Circuit`] if slope or reference are out of range, or if the
@@ -125,46 +187,16 @@ pub fn simulate_mean_phase(
     if path_bits + 1 > MOST_SUPERPOSED {
         return Err(SimulateError::TooManyPaths(path_bits));
     }
-    if bits > MAX_LEVEL_BITS {
-        return Err(SimulateError::LevelBits(bits));
-    }
-    let phase_bits = asked.iterates.max(1).ilog2() + FINER;
-    LevelPhases::new(
-        asked.slope.unwrap_or(1.0),
-        asked.reference.unwrap_or(0.0),
-        bits,
-        phase_bits,
-    )?;
+    let phase_bits = asked.known(bits)?.bits();
     let (alone, name) = super::oracle_of(oracles, pixel, options)?;
     let oracle = alone.channel(name.channel, name.class)?;
     // Levels and outcomes of all paths take at most as much as the amplitudes.
     let qubits = oracle.qubits() + phase_bits;
     options.memory.keep_states(qubits, path_bits + 2, 1)?;
-    let bound = oracle.program_at(pixel.seed, pixel.place);
-    let mut levels: Vec<u64> = Vec::new();
-    for first in (0..bound.paths()).step_by(AT_A_TIME) {
-        if options.workers.cancelled() {
-            return Err(SimulateError::Interrupted);
-        }
-        let end = bound.paths().min(first + AT_A_TIME as u64);
-        let paths = run_paths::on_fixed(&bound, first..end)?;
-        levels.extend(paths.iter().filter_map(|path| path.first()));
-    }
-    let mut histogram = Histogram::new(bits);
-    histogram.add_all(levels.iter().copied());
-    let all: Vec<(u64, u64)> = histogram.levels().collect();
+    let (levels, all) = traced(&oracle, pixel, &options.workers)?;
     let (mean, deviation) = moments(&all, bits);
-    let slope = asked.slope.unwrap_or(if deviation > 0.0 {
-        SLOPE / deviation
-    } else {
-        1.0
-    });
-    let reference = asked
-        .reference
-        .unwrap_or((mean - BELOW * deviation).max(0.0));
-    let phases = LevelPhases::new(slope, reference, bits, phase_bits)?;
-    // A quarter turn.
-    let basis = Turns::new(1, 2);
+    let phases = asked.for_levels(&all, bits)?;
+    let basis = asked.basis();
     let made = oracle.level_phases(0, pixel.seed, pixel.place, &phases)?;
     let circuit = MeanPhaseCircuit::new(&made, phases, asked.iterates, basis)?;
     let mut machine = Sparse::new(circuit.qubits());
@@ -215,6 +247,29 @@ pub fn simulate_mean_phase(
         gates,
         queries: circuit.queries(),
     })
+}
+
+/// Traces a pixel's paths on integers. Returns the level of each, and all levels in ascending order with the
+/// number of paths of each.
+fn traced(
+    oracle: &Oracle,
+    pixel: OraclePixel,
+    workers: &Workers<'_>,
+) -> Result<(Vec<u64>, Vec<(u64, u64)>), SimulateError> {
+    let bound = oracle.program_at(pixel.seed, pixel.place);
+    let mut levels: Vec<u64> = Vec::new();
+    for first in (0..bound.paths()).step_by(AT_A_TIME) {
+        if workers.cancelled() {
+            return Err(SimulateError::Interrupted);
+        }
+        let end = bound.paths().min(first + AT_A_TIME as u64);
+        let paths = run_paths::on_fixed(&bound, first..end)?;
+        levels.extend(paths.iter().filter_map(|path| path.first()));
+    }
+    let mut histogram = Histogram::new(oracle.comparator_bits());
+    histogram.add_all(levels.iter().copied());
+    let all = histogram.levels().collect();
+    Ok((levels, all))
 }
 
 /// Mean and standard deviation of levels over `2^bits`.

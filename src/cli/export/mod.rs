@@ -12,11 +12,15 @@ use super::{interrupt, terminal};
 use clap::Args;
 use qrt_circuit::export::{Export, ExportCounts, ExportError, ExportFormat};
 use qrt_circuit::lower::Cost;
-use qrt_circuit::quantum::{CircuitPart, Conjunction, CountingCircuit, PhaseOracle, QuantumError};
+use qrt_circuit::quantum::{
+    CircuitPart, Conjunction, CountingCircuit, LevelPhases, MeanPhaseCircuit, PhaseOracle,
+    QuantumError,
+};
 use qrt_core::inspect::{Inspection, OraclePixel, grouped};
-use qrt_core::oracle::{OracleName, PARTS_OF_A_CALL};
+use qrt_core::oracle::{Oracle, OracleName, PARTS_OF_A_CALL};
 use qrt_counting::Stratum;
 use qrt_lab::json;
+use qrt_lab::simulate::{MeanPhase, SimulateError};
 use qrt_lab::verify::{PixelCounts, pixel_counts};
 use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::plan::{PlanFigures, PlanOptions};
@@ -62,12 +66,35 @@ const LANGUAGES: [(Language, &str); 3] = [
     ),
 ];
 
-const PARTS: [(CircuitPart, &str); 3] = [
-    (CircuitPart::Oracle, "O_f, once"),
-    (CircuitPart::Grover, "One iterate G = H O_0 H O_f"),
+/// A circuit to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// A part of the counting circuit.
+    Of(CircuitPart),
+    /// The circuit of the mean phase.
+    MeanPhase,
+}
+
+impl Part {
+    /// Returns the part of the counting circuit.
+    fn of_counting(self) -> CircuitPart {
+        match self {
+            Self::Of(part) => part,
+            Self::MeanPhase => CircuitPart::Counting,
+        }
+    }
+}
+
+const ORACLE: Part = Part::Of(CircuitPart::Oracle);
+const COUNTING: Part = Part::Of(CircuitPart::Counting);
+
+const PARTS: [(Part, &str); 4] = [
+    (ORACLE, "O_f, once"),
+    (Part::Of(CircuitPart::Grover), "One iterate G = H O_0 H O_f"),
+    (COUNTING, "The whole circuit of quantum counting"),
     (
-        CircuitPart::Counting,
-        "The whole circuit of quantum counting",
+        Part::MeanPhase,
+        "The circuit of the mean phase: iterates, and the measurement of the path and the sign",
     ),
 ];
 
@@ -80,7 +107,9 @@ const BYTES_A_GATE: u64 = 28;
 /// compares, flips and uncomputes, with X, CNOT, Toffoli and Z gates. The pixel's position is built
 /// in. The Grover iterate is the oracle and a reflection. Counting is all of it: the window on the
 /// phase register, 2^t - 1 controlled iterates, the inverse Fourier transform, and the
-/// measurement of y, which estimates S/N by sin(pi y / 2^t)^2.
+/// measurement of y, which estimates S/N by sin(pi y / 2^t)^2. The mean-phase circuit looks the phase
+/// of a path's colour up in place of comparing, and runs K iterates whose phase is the mean of the
+/// pixel's colours in units of their standard deviation.
 ///
 /// The text is flat: registers, gates, measurements, a line each. Qiskit, Q#, Cirq and MQT Core
 /// read both languages, pytket version 2, PennyLane version 3 without `include` and measurements.
@@ -98,6 +127,7 @@ Examples:
   qrt export box.yaml --pixel 10,20 --channel g -o g.qasm
   qrt export box.yaml --part counting --set counting.phase_bits=3
   qrt export box.yaml --part grover --stratum 0/4        the darkest eighth of the comparator
+  qrt export box.yaml --part mean-phase --iterates 4
   qrt export box.yaml --format openqasm2 -o - | gzip > box.qasm.gz
   qrt export box.yaml --format mitsuba   the scene, box.xml and box.N.MATERIAL.ply")]
 pub(crate) struct ExportArgs {
@@ -110,7 +140,17 @@ pub(crate) struct ExportArgs {
     format: Language,
     /// The part of the circuit [default: oracle]
     #[arg(long, value_parser = choice(PARTS, part_name))]
-    part: Option<CircuitPart>,
+    part: Option<Part>,
+    /// Iterates of the mean-phase circuit, which calls the oracle K + 1 times [default: 1]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(0..1 << 40))]
+    iterates: Option<u64>,
+    /// The slope of the mean phase, for colours over the scale [default: 0.6 over the paths' standard
+    /// deviation]
+    #[arg(long, value_name = "ALPHA", allow_hyphen_values = true)]
+    slope: Option<f64>,
+    /// The colour of phase 0, over the scale [default: half a standard deviation below the mean]
+    #[arg(long, value_name = "COLOUR", allow_hyphen_values = true)]
+    reference: Option<f64>,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<[u32; 2]>,
@@ -136,8 +176,31 @@ pub(crate) struct ExportArgs {
 }
 
 impl ExportArgs {
-    fn part(&self) -> CircuitPart {
-        self.part.unwrap_or(CircuitPart::Oracle)
+    fn part(&self) -> Part {
+        self.part.unwrap_or(ORACLE)
+    }
+
+    fn mean_phase(&self) -> MeanPhase {
+        MeanPhase {
+            iterates: self.iterates.unwrap_or(1),
+            slope: self.slope,
+            reference: self.reference,
+        }
+    }
+
+    /// Refuses parameters of another part than the requested one.
+    fn check_part(&self) -> Result<(), Failure> {
+        let of_mean_phase = [
+            ("--iterates", self.iterates.is_some()),
+            ("--slope", self.slope.is_some()),
+            ("--reference", self.reference.is_some()),
+        ];
+        match of_mean_phase.into_iter().find(|(_, given)| *given) {
+            Some((name, _)) if self.part() != Part::MeanPhase => Err(Failure::Usage(format!(
+                "{name} is a parameter of the mean phase: it needs --part mean-phase"
+            ))),
+            _ => Ok(()),
+        }
     }
 
     fn seed(&self) -> u64 {
@@ -149,37 +212,48 @@ impl ExportArgs {
     }
 }
 
-fn part_name(part: CircuitPart) -> &'static str {
+fn part_name(part: Part) -> &'static str {
     match part {
-        CircuitPart::Oracle => "oracle",
-        CircuitPart::Grover => "grover",
-        CircuitPart::Counting => "counting",
+        Part::Of(CircuitPart::Oracle) => "oracle",
+        Part::Of(CircuitPart::Grover) => "grover",
+        Part::Of(CircuitPart::Counting) => "counting",
+        Part::MeanPhase => "mean-phase",
     }
 }
 
 /// Returns the comment that describes a part, for readers of the file.
-fn about(part: CircuitPart) -> &'static [&'static str] {
+fn about(part: Part) -> &'static [&'static str] {
     match part {
-        CircuitPart::Oracle => &[
+        Part::Of(CircuitPart::Oracle) => &[
             "Flips the sign of each good index: of a path whose colour exceeds the comparator's threshold.",
         ],
-        CircuitPart::Grover => &[
+        Part::Of(CircuitPart::Grover) => &[
             "G = H O_0 H O_f: rotates the plane of good and other indices by theta turns, where",
             "sin(pi theta)^2 = S/N for S good indices of N. Its global phase is included.",
         ],
-        CircuitPart::Counting => &[
+        Part::Of(CircuitPart::Counting) => &[
             "Reads y into outcome: y/2^t or 1 - y/2^t is about theta, in turns, where",
             "sin(pi theta)^2 = S/N for S good indices of N.",
+        ],
+        Part::MeanPhase => &[
+            "Reads the sign into bit 0 of outcome, and the path into the bits above it. The sign is measured at a",
+            "right angle: the fraction of ones moves with the mean of the paths' colours.",
         ],
     }
 }
 
 /// Returns, in words, the qubits and gates of a part that the oracle does not have.
-fn beside_oracle(part: CircuitPart) -> Option<&'static str> {
+fn beside_oracle(part: Part) -> Option<&'static str> {
     match part {
-        CircuitPart::Oracle => None,
-        CircuitPart::Grover => Some("Beside the oracle, the iterate has the reflection O_0."),
-        CircuitPart::Counting => Some(
+        Part::Of(CircuitPart::Oracle) => None,
+        Part::MeanPhase => Some(
+            "A call here looks a phase up by the path's colour, where the oracle compares; beside its calls, the \
+             circuit has a sign qubit, and a reflection after each call but one.",
+        ),
+        Part::Of(CircuitPart::Grover) => {
+            Some("Beside the oracle, the iterate has the reflection O_0.")
+        }
+        Part::Of(CircuitPart::Counting) => Some(
             "Beside its calls of the oracle, counting has the phase register, its window and inverse \
              Fourier transform, and a reflection O_0 after each call.",
         ),
@@ -201,7 +275,7 @@ fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> 
         return Ok(None);
     };
     let refuse = |message: String| Err(Failure::Usage(message));
-    if args.part() == CircuitPart::Oracle {
+    if matches!(args.part(), ORACLE | Part::MeanPhase) {
         return refuse(
             "--stratum is of what is counted, and the oracle is the same for all strata: it needs \
              --part grover or counting"
@@ -274,9 +348,12 @@ struct Exported<'a> {
     scene: &'a ValidScene,
     oracle: &'a OracleFigures,
     export: &'a Export<'a>,
-    counting: &'a CountingCircuit<'a>,
+    /// Number of calls of the oracle.
+    queries: u64,
     plan: Option<&'a PlanFigures>,
     window: Window,
+    /// The table of the mean phase.
+    phases: Option<LevelPhases>,
     stratum: Option<Stratum>,
     /// The pixel's counts beside those of real numbers, if they can be had.
     counts: Option<PixelCounts>,
@@ -291,6 +368,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
 }
 
 fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
+    args.check_part()?;
     let file = args
         .output
         .clone()
@@ -338,26 +416,45 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
     };
     keep_budget(&loaded, &[inspection.oracle_cost()])?;
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
-    let oracle = inspection.oracle.phase(0, pixel.seed, pixel.place);
-    let mut oracle = oracle.map_err(|error| failed(&error))?;
     let path_bits = inspection.oracle.points.path_bits();
     let bits = inspection.oracle.comparator_bits();
     let stratum = stratum_of(args, bits)?;
+    let phases = match args.part() {
+        Part::Of(_) => None,
+        Part::MeanPhase => Some(table(args, &inspection.oracle, pixel, &workers)?),
+    };
+    let oracle = match &phases {
+        Some(phases) => (inspection.oracle).level_phases(0, pixel.seed, pixel.place, phases),
+        None => inspection.oracle.phase(0, pixel.seed, pixel.place),
+    };
+    let mut oracle = oracle.map_err(|error| failed(&error))?;
     if let Some(stratum) = stratum {
         oracle = fixed(oracle, stratum, path_bits, bits).map_err(|error| failed(&error))?;
     }
-    let asked = written.counting;
-    let (phase_bits, window) = (asked.phase_bits, asked.register_window());
-    let counting = CountingCircuit::with(&oracle, phase_bits, window, Conjunction::Toffolis);
-    let counting = counting.map_err(|error| failed(&error))?;
+    let window = written.counting.register_window();
+    let source = match (args.part(), phases) {
+        (Part::MeanPhase, Some(phases)) => {
+            let asked = args.mean_phase();
+            let turns = (asked.iterates, asked.basis());
+            let circuit = MeanPhaseCircuit::with(&oracle, phases, turns, Conjunction::Toffolis);
+            circuit.map(Source::MeanPhase)
+        }
+        (part, _) => {
+            let phase_bits = written.counting.phase_bits;
+            let counting =
+                CountingCircuit::with(&oracle, phase_bits, window, Conjunction::Toffolis);
+            counting.map(|counting| Source::Counting(counting, part.of_counting()))
+        }
+    };
+    let source = source.map_err(|error| failed(&error))?;
     let parts = inspection.oracle.index_parts();
     let counts = pixel_counts(scene, &inspection.oracle, pixel)?;
     let figures = OracleFigures::from_inspection(&inspection);
     // The phase oracle has its own program, so the inspection can be freed.
     drop(inspection);
-    let export = Export::new(&counting, args.part(), &parts);
+    let export = source.export(parts);
     let export = export.map_err(|error| failed(&error))?;
-    allow(args, &counting, window, export.gates())?;
+    allow(args, &source, window, export.gates())?;
     let bar = Bar::gates(!args.json && !to_stdout);
     bar.show(Progress::Started {
         total: export.gates(),
@@ -371,9 +468,10 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
         scene,
         oracle: &figures,
         export: &export,
-        counting: &counting,
+        queries: source.queries(),
         plan: prepared.plan(),
         window,
+        phases,
         stratum,
         counts,
         file: &file,
@@ -396,26 +494,73 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
     }
 }
 
+/// The circuit that is written, or whose part is.
+enum Source<'a> {
+    Counting(CountingCircuit<'a>, CircuitPart),
+    MeanPhase(MeanPhaseCircuit<'a>),
+}
+
+impl Source<'_> {
+    /// Prepares the circuit for writing, with the names of the path and of the comparator in its index.
+    fn export(
+        &self,
+        [path, comparator]: [(&'static str, u32); 2],
+    ) -> Result<Export<'_>, ExportError> {
+        match self {
+            Self::Counting(counting, part) => Export::new(counting, *part, &[path, comparator]),
+            Self::MeanPhase(circuit) => Export::mean_phase(circuit, &[path]),
+        }
+    }
+
+    /// Returns the number of calls of the oracle.
+    fn queries(&self) -> u64 {
+        match self {
+            Self::Counting(counting, CircuitPart::Counting) => counting.queries(),
+            Self::Counting(..) => 1,
+            Self::MeanPhase(circuit) => circuit.queries(),
+        }
+    }
+}
+
+/// Returns the table of the mean phase in a pixel.
+fn table(
+    args: &ExportArgs,
+    oracle: &Oracle,
+    pixel: OraclePixel,
+    workers: &Workers<'_>,
+) -> Result<LevelPhases, Failure> {
+    let table = args.mean_phase().table(oracle, pixel, workers);
+    table.map_err(|error| match error {
+        SimulateError::Interrupted => Failure::Job(error.to_string()),
+        error => Failure::Usage(error.to_string()),
+    })
+}
+
 /// Refuses to write more gates than `--max-gates`.
 fn allow(
     args: &ExportArgs,
-    counting: &CountingCircuit<'_>,
+    source: &Source<'_>,
     window: Window,
     gates: u64,
 ) -> Result<(), Failure> {
     if gates <= args.max_gates() {
         return Ok(());
     }
-    let shorter = if args.part() == CircuitPart::Counting {
-        match longest(counting, window, args.max_gates()) {
-            None => format!(
-                "; one iterate alone has {}",
-                grouped(counting.iterate().gates(true))
-            ),
-            Some(bits) => format!("; `--set counting.phase_bits={bits}` makes it short enough"),
+    let shorter = match source {
+        Source::Counting(counting, CircuitPart::Counting) => {
+            match longest(counting, window, args.max_gates()) {
+                None => format!(
+                    "; one iterate alone has {}",
+                    grouped(counting.iterate().gates(true))
+                ),
+                Some(bits) => format!("; `--set counting.phase_bits={bits}` makes it short enough"),
+            }
         }
-    } else {
-        String::new()
+        Source::Counting(..) => String::new(),
+        Source::MeanPhase(circuit) => format!(
+            "; each of its {} calls of the oracle takes as many",
+            grouped(circuit.queries())
+        ),
     };
     Err(Failure::Usage(format!(
         "{} gates, some {} of text, are more than --max-gates {}{shorter}",
@@ -488,6 +633,7 @@ impl Exported<'_> {
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
         lines.push(format!("One call of the oracle has {}.", self.oracle.call));
         lines.extend(beside_oracle(part).map(str::to_owned));
+        lines.extend(self.table_in_words().map(|words| format!("{words}.")));
         lines.push("The pixel's position and shifts are built in.".to_owned());
         lines.extend(self.counts.map(|counts| format!("{}.", counts.in_words())));
         if let (Some((number, strata)), Some(stratum)) = (self.args.stratum, self.stratum) {
@@ -498,6 +644,17 @@ impl Exported<'_> {
         }
         lines.push("Bit 0 of each register is its least significant.".to_owned());
         lines
+    }
+
+    /// Returns the table of the mean phase in words.
+    fn table_in_words(&self) -> Option<String> {
+        let phases = self.phases?;
+        Some(format!(
+            "{} iterates; the phase of a colour x of the scale is 2 atan({} (x - {}))",
+            self.args.mean_phase().iterates,
+            phases.slope(),
+            phases.reference()
+        ))
     }
 
     fn summary(&self, tally: &ExportCounts) -> String {
@@ -515,10 +672,8 @@ impl Exported<'_> {
             self.oracle.call
         );
         let values = self.counts.map(|counts| counts.in_words());
-        let lines = beside_oracle(part)
-            .map(str::to_owned)
-            .into_iter()
-            .chain(values);
+        let lines = beside_oracle(part).map(str::to_owned);
+        let lines = lines.into_iter().chain(self.table_in_words()).chain(values);
         for line in lines {
             text.push_str(&line);
             text.push('\n');
@@ -535,7 +690,7 @@ impl Exported<'_> {
         let gates: Map<String, Value> = gates
             .map(|(name, gates)| ((*name).to_owned(), json!(gates)))
             .collect();
-        let counting = self.args.part() == CircuitPart::Counting;
+        let counting = self.args.part() == COUNTING;
         json!({
             "version": 1,
             "qrt": env!("CARGO_PKG_VERSION"),
@@ -550,8 +705,13 @@ impl Exported<'_> {
             "seed": self.oracle.pixel.seed,
             "oracle": self.oracle.json(),
             "beside_oracle": beside_oracle(self.args.part()),
-            "queries": if counting { self.counting.queries() } else { 1 },
+            "queries": self.queries,
             "window": counting.then(|| self.window.name()),
+            "mean_phase": self.phases.map(|phases| json!({
+                "iterates": self.args.mean_phase().iterates,
+                "slope": phases.slope(),
+                "reference": phases.reference(),
+            })),
             "stratum": self.stratum.map(|stratum| {
                 let Range { start, end } = stratum.thresholds();
                 json!({ "thresholds": [start, end] })
