@@ -135,7 +135,7 @@ struct Table {
     csv: String,
 }
 
-/// Prints the bias of each estimator and judges that of `adaptive-bayes`. Returns all figures as CSV.
+/// Prints the bias of each estimator and judges those of `adaptive-bayes` and `auto`. Returns all figures as CSV.
 pub(crate) fn tables(names: &[Estimator], quick: bool, verdicts: &mut Verdicts) -> String {
     let (small, seeds) = if quick { (16, 1) } else { (32, 3) };
     let mut table = Table {
@@ -207,7 +207,7 @@ impl Table {
         };
         print!("| {label} | {asked} |");
         for a in AMPLITUDES {
-            if by_strata {
+            if by_strata || name.reads_levels() {
                 // A single amplitude says nothing about the colours of paths.
                 print!(" |");
                 continue;
@@ -243,7 +243,7 @@ impl Table {
             let bias = found.percent(found.bias);
             print!(" {bias:+.2} % ({errors:+.1} +- {to:.1}) | {rmse:.1} % |");
             self.note(row, scene, asked, &found);
-            if name == Estimator::AdaptiveBayes && !by_strata {
+            if matches!(name, Estimator::AdaptiveBayes | Estimator::Auto) && !by_strata {
                 let what = format!(
                     "{name}, {scene}, {asked} queries: bias of {errors:.2} +- {to:.2} standard errors \
                      of the mean, at most 1"

@@ -56,15 +56,23 @@ fn main() -> ExitCode {
     ])
 }
 
-/// Returns the estimators, without the one that knows the amplitude, and without those that need the
-/// levels of paths: the part `mean` measures these.
-fn estimators() -> impl Iterator<Item = Estimator> {
+/// Returns the estimators without the one that knows the amplitude.
+fn measuring() -> impl Iterator<Item = Estimator> {
     let all = Estimator::ALL.iter().copied();
-    all.filter(|&estimator| estimator != Estimator::Exact && !estimator.reads_levels())
+    all.filter(|&estimator| estimator != Estimator::Exact)
 }
 
+/// Returns those that need no levels of paths: the part `mean` measures the others.
+fn estimators() -> impl Iterator<Item = Estimator> {
+    measuring().filter(|estimator| !estimator.reads_levels())
+}
+
+/// `bias NAME` measures the estimator of that name alone.
 fn biases(arguments: &Arguments, promises: &mut Promises) {
-    let names: Vec<Estimator> = estimators().collect();
+    let word = arguments.word().filter(|_| arguments.names("bias"));
+    let asked = |name: &Estimator| word.is_none_or(|word| word == name.to_string());
+    let names: Vec<Estimator> = measuring().filter(asked).collect();
+    assert!(!names.is_empty(), "no estimator of that name");
     let mut verdicts = Verdicts::default();
     let csv = bias::tables(&names, arguments.flag("--quick"), &mut verdicts);
     finish("bias", arguments, &csv, &verdicts, promises);

@@ -24,7 +24,7 @@ const CLEAN: f64 = 1e-20;
 /// The table and the number of iterates of a mean-phase circuit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanPhase {
-    /// Number of iterates, from 0 to 65,536.
+    /// Number of iterates: for a simulation at most [`MOST_ITERATES`].
     pub iterates: u64,
     /// alpha, by which a colour's distance from the reference becomes half a phase's tangent; colours
     /// are over the channel's scale. Without it, 0.6 over the standard deviation of the pixel's paths.
