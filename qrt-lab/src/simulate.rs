@@ -156,6 +156,12 @@ pub enum SimulateError {
          together are simulated: lower `sampling.path_bits`"
     )]
     TooManyPaths(u32),
+    /// Too many paths to choose a table of phases by.
+    #[error(
+        "the slope and the reference are chosen by the paths of the pixel, at most 2^{MOST_SUPERPOSED}, and there \
+         are 2^{0}: give both, or lower `sampling.path_bits`"
+    )]
+    TableOfManyPaths(u32),
     /// Levels of too many bits for a table of phases.
     #[error(
         "phases are looked up by levels of at most {MAX_LEVEL_BITS} bits, and the comparator has {0}: lower \
@@ -197,6 +203,7 @@ impl SimulateError {
                 | Self::TooManySuperposed { .. }
                 | Self::TooManyIterates(_)
                 | Self::TooManyPaths(_)
+                | Self::TableOfManyPaths(_)
                 | Self::LevelBits(_)
                 | Self::WouldNotFit(_)
                 | Self::StateVector(

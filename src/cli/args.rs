@@ -46,7 +46,11 @@ impl SceneArgs {
     /// `counting` are set beside it.
     pub(crate) fn load_with(&self, estimator: Option<&str>) -> Result<Loaded, Failure> {
         let mut sets = self.sets.clone();
-        let beside = sets.iter().any(|set| set.starts_with("counting"));
+        let of_counting = |set: &String| {
+            let key = set.trim_start().trim_start_matches(['"', '\'']);
+            key.starts_with("counting")
+        };
+        let beside = sets.iter().any(of_counting);
         if let Some(name) = estimator.filter(|name| beside && *name != "exact") {
             sets.push(format!("counting.estimator={name}"));
         }
@@ -137,4 +141,22 @@ pub(crate) fn numbers<const N: usize>(text: &str, such_as: &str) -> Result<[u32;
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
     numbers.ok_or_else(|| such_as.to_owned())
+}
+
+/// Parses the slope of a table of phases.
+pub(crate) fn slope(text: &str) -> Result<f64, String> {
+    let slope = text.trim().parse().ok();
+    let slope = slope.filter(|slope: &f64| *slope > 0.0 && slope.is_finite());
+    slope.ok_or_else(|| "a slope is a positive, finite number, such as 2.5".to_owned())
+}
+
+/// Parses the reference of a table of phases.
+pub(crate) fn reference(text: &str) -> Result<f64, String> {
+    let reference = text.trim().parse().ok();
+    let reference = reference.filter(|colour: &f64| (0.0..=1.0).contains(colour));
+    // Not -0.
+    let reference = reference.map(f64::abs);
+    reference.ok_or_else(|| {
+        "a reference is a colour over the scale, from 0 to 1, such as 0.1".to_owned()
+    })
 }

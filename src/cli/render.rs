@@ -465,15 +465,14 @@ fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
     let (bounds, limits) = (machine.stage().bound(), machine.stage().limit());
     let rounded = |c: usize| greatest[c] <= limits[c] - bounds[c];
     if (0..3).all(rounded) {
-        // At most a trace that rounding left of a lamp that faces away. The scene may have a warning.
-        let warned = scene
-            .warnings()
-            .iter()
-            .any(|one| one.code() == codes::BLACK);
-        if !warned {
+        // Rounding may have left a trace of a lamp that faces away. The scene may have a warning.
+        let mut warnings = scene.warnings().iter();
+        let warned = warnings.any(|one| one.code() == codes::BLACK);
+        if !warned && greatest == [0.0; 3] {
             terminal::note(&format!(
-                "the picture is black: none of {} paths that were tried has light; is a lamp or the camera \
-                 enclosed, or does a lamp show its back?",
+                "the picture is black: none of {} paths that were tried has light. Does the camera look \
+                 elsewhere, are there too few rays in `sampling.depths`, or is a lamp enclosed, turned away or \
+                 too small to be found without `light`?",
                 grouped(pixels.len() as u64 * paths)
             ));
         }

@@ -1,6 +1,6 @@
 //! `qrt simulate`: runs a pixel's complete counting circuit as amplitudes.
 
-use super::args::{SceneArgs, ThreadsArgs, choice, on_film, pixel};
+use super::args::{SceneArgs, ThreadsArgs, choice, on_film, pixel, reference, slope};
 use super::failure::Failure;
 use super::files::{Output, keep_apart};
 use super::inspect::{CHANNEL_CHOICES, channel_name};
@@ -36,9 +36,9 @@ const BAR: f64 = 32.0;
 /// a sparse state vector; after each query all ancillas are read as 0. Beside the probability of each
 /// outcome y stands the one that theory predicts from S of N, where S is counted path by path.
 ///
-/// The path index, the comparator and the phase register together have at most 24 qubits, as have the
-/// path index and the sign of the mean phase. The scenes in
-/// scenes-yaml/small/ are that small.
+/// The path index, the comparator and the phase register together have at most 24 qubits. The path
+/// index and the sign of the mean phase have at most 24, too. The scenes in scenes-yaml/small/ are that
+/// small.
 ///
 /// With --mean-phase, it is the circuit of the mean phase: K iterates, whose phase is the mean of the
 /// paths' colours less a reference, and no phase register. Theory is what the levels of the paths say.
@@ -87,6 +87,7 @@ pub(crate) struct SimulateArgs {
     #[arg(
         long,
         value_name = "ALPHA",
+        value_parser = slope,
         requires = "mean_phase",
         allow_hyphen_values = true
     )]
@@ -95,6 +96,7 @@ pub(crate) struct SimulateArgs {
     #[arg(
         long,
         value_name = "COLOUR",
+        value_parser = reference,
         requires = "mean_phase",
         allow_hyphen_values = true
     )]
@@ -321,7 +323,7 @@ fn text(scene: &str, one: &Simulation) -> String {
 }
 
 /// A positive number to four decimals, or in powers of ten.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     if (1e-2..1e6).contains(&number) {
         format!("{number:.4}")
     } else {

@@ -770,8 +770,8 @@ fn helps_are_taken_when_they_are_written() {
     listed.sort_unstable();
     assert_eq!(named, listed);
 
-    // A name that is denied after all that the compiler refuses: with this error alone, the rest is right. So
-    // nothing need be built to be run.
+    // A lint is denied that is reported where types and borrows are right, too: with this error alone, they are. So
+    // nothing need be built. Assertions of the compiler about numbers that are known only then are not reached.
     let mut all = String::from(
         "#![allow(unused)]\n#![deny(non_camel_case_types)]\nstruct the_rest_is_right;\n\n",
     );

@@ -40,7 +40,7 @@ impl MeanPhase {
     ///
     /// # Errors
     /// [`SimulateError::LevelBits`]; [`SimulateError::Circuit`] if slope or reference are out of range, or if
-    /// phases have too many bits; [`SimulateError::Interrupted`].
+    /// phases have too many bits; [`SimulateError::TableOfManyPaths`]; [`SimulateError::Interrupted`].
     pub fn table(
         &self,
         oracle: &Oracle,
@@ -52,8 +52,14 @@ impl MeanPhase {
         if self.slope.is_some() && self.reference.is_some() {
             return Ok(known);
         }
-        let (_, histogram) = traced(oracle, pixel, workers)?;
-        Ok(self.for_levels(&histogram, bits)?)
+        let path_bits = oracle.points.path_bits();
+        if path_bits > MOST_SUPERPOSED {
+            return Err(SimulateError::TableOfManyPaths(path_bits));
+        }
+        let mut histogram = Histogram::new(bits);
+        trace(oracle, pixel, workers, |levels| histogram.add_all(levels))?;
+        let levels: Vec<_> = histogram.levels().collect();
+        Ok(self.for_levels(&levels, bits)?)
     }
 
     /// The angle at which the sign qubit is measured: a quarter turn, at which a small phase changes its outcome
@@ -181,7 +187,7 @@ pub fn simulate_mean_phase(
     if asked.iterates > MOST_ITERATES {
         return Err(SimulateError::TooManyIterates(asked.iterates));
     }
-    // Compiling may take long: what can be refused before is.
+    // Refuse before compiling, which may take long.
     let written = oracles.scene().scene();
     let (path_bits, bits) = (written.sampling.path_bits, written.comparator.bits);
     if path_bits + 1 > MOST_SUPERPOSED {
@@ -193,7 +199,11 @@ pub fn simulate_mean_phase(
     // Levels and outcomes of all paths take at most as much as the amplitudes.
     let qubits = oracle.qubits() + phase_bits;
     options.memory.keep_states(qubits, path_bits + 2, 1)?;
-    let (levels, all) = traced(&oracle, pixel, &options.workers)?;
+    let mut levels: Vec<u64> = Vec::new();
+    trace(&oracle, pixel, &options.workers, |some| levels.extend(some))?;
+    let mut histogram = Histogram::new(bits);
+    histogram.add_all(levels.iter().copied());
+    let all: Vec<(u64, u64)> = histogram.levels().collect();
     let (mean, deviation) = moments(&all, bits);
     let phases = asked.for_levels(&all, bits)?;
     let basis = asked.basis();
@@ -249,27 +259,24 @@ pub fn simulate_mean_phase(
     })
 }
 
-/// Traces a pixel's paths on integers. Returns the level of each, and all levels in ascending order with the
-/// number of paths of each.
-fn traced(
+/// Traces a pixel's paths on integers, and calls `each` with the levels of a few thousand at a time, in the order of
+/// path indices.
+fn trace(
     oracle: &Oracle,
     pixel: OraclePixel,
     workers: &Workers<'_>,
-) -> Result<(Vec<u64>, Vec<(u64, u64)>), SimulateError> {
+    mut each: impl FnMut(&mut dyn Iterator<Item = u64>),
+) -> Result<(), SimulateError> {
     let bound = oracle.program_at(pixel.seed, pixel.place);
-    let mut levels: Vec<u64> = Vec::new();
     for first in (0..bound.paths()).step_by(AT_A_TIME) {
         if workers.cancelled() {
             return Err(SimulateError::Interrupted);
         }
         let end = bound.paths().min(first + AT_A_TIME as u64);
         let paths = run_paths::on_fixed(&bound, first..end)?;
-        levels.extend(paths.iter().filter_map(|path| path.first()));
+        each(&mut paths.iter().filter_map(|path| path.first().copied()));
     }
-    let mut histogram = Histogram::new(oracle.comparator_bits());
-    histogram.add_all(levels.iter().copied());
-    let all = histogram.levels().collect();
-    Ok((levels, all))
+    Ok(())
 }
 
 /// Mean and standard deviation of levels over `2^bits`.

@@ -17,6 +17,9 @@ pub(super) fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
         ("--pixel", args.pixel.is_some()),
         ("--channel", args.channel.is_some()),
         ("--stratum", args.stratum.is_some()),
+        ("--iterates", args.iterates.is_some()),
+        ("--slope", args.slope.is_some()),
+        ("--reference", args.reference.is_some()),
         ("--seed", args.seed.is_some()),
         ("--max-gates", args.max_gates.is_some()),
     ];

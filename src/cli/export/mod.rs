@@ -2,12 +2,13 @@
 
 mod mitsuba;
 
-use super::args::{SceneArgs, choice, on_film, pixel};
+use super::args::{SceneArgs, choice, on_film, pixel, reference, slope};
 use super::failure::Failure;
 use super::files::{Output, keep_apart, named_after};
 use super::inspect::{CHANNEL_CHOICES, channel_name, keep_budget};
 use super::prepare::{self, Preparation};
 use super::progress::Bar;
+use super::simulate::short;
 use super::{interrupt, terminal};
 use clap::Args;
 use qrt_circuit::export::{Export, ExportCounts, ExportError, ExportFormat};
@@ -141,15 +142,15 @@ pub(crate) struct ExportArgs {
     /// The part of the circuit [default: oracle]
     #[arg(long, value_parser = choice(PARTS, part_name))]
     part: Option<Part>,
-    /// Iterates of the mean-phase circuit, which calls the oracle K + 1 times [default: 1]
+    /// Iterates of the mean-phase circuit, below 2^40; it calls the oracle K + 1 times [default: 1]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(0..1 << 40))]
     iterates: Option<u64>,
     /// The slope of the mean phase, for colours over the scale [default: 0.6 over the paths' standard
     /// deviation]
-    #[arg(long, value_name = "ALPHA", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ALPHA", value_parser = slope, allow_hyphen_values = true)]
     slope: Option<f64>,
     /// The colour of phase 0, over the scale [default: half a standard deviation below the mean]
-    #[arg(long, value_name = "COLOUR", allow_hyphen_values = true)]
+    #[arg(long, value_name = "COLOUR", value_parser = reference, allow_hyphen_values = true)]
     reference: Option<f64>,
     /// The pixel: column and row, from 0 at the top left [default: the one in the middle]
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
@@ -247,8 +248,8 @@ fn beside_oracle(part: Part) -> Option<&'static str> {
     match part {
         Part::Of(CircuitPart::Oracle) => None,
         Part::MeanPhase => Some(
-            "A call here looks a phase up by the path's colour, where the oracle compares; beside its calls, the \
-             circuit has a sign qubit, and a reflection after each call but one.",
+            "A call of this circuit looks a phase up by the path's colour, where the oracle compares. Beside its \
+             calls, the circuit has a sign qubit, and a reflection between two calls.",
         ),
         Part::Of(CircuitPart::Grover) => {
             Some("Beside the oracle, the iterate has the reflection O_0.")
@@ -414,14 +415,21 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
         let inspection = Inspection::of_pixel(&alone, args.channel, pixel);
         inspection.map_err(|error| prepare::without_circuit(&error, &loaded))?
     };
-    keep_budget(&loaded, &[inspection.oracle_cost()])?;
+    let call = inspection.oracle_cost();
+    if args.part() != Part::MeanPhase {
+        keep_budget(&loaded, &[call])?;
+    }
     let failed = |error: &dyn std::error::Error| Failure::Job(error.to_string());
     let path_bits = inspection.oracle.points.path_bits();
     let bits = inspection.oracle.comparator_bits();
     let stratum = stratum_of(args, bits)?;
     let phases = match args.part() {
         Part::Of(_) => None,
-        Part::MeanPhase => Some(table(args, &inspection.oracle, pixel, &workers)?),
+        Part::MeanPhase => {
+            // Paths may be traced for it.
+            interrupt::begun();
+            Some(table(args, &inspection.oracle, pixel, &workers)?)
+        }
     };
     let oracle = match &phases {
         Some(phases) => (inspection.oracle).level_phases(0, pixel.seed, pixel.place, phases),
@@ -437,6 +445,11 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
             let asked = args.mean_phase();
             let turns = (asked.iterates, asked.basis());
             let circuit = MeanPhaseCircuit::with(&oracle, phases, turns, Conjunction::Toffolis);
+            if let Ok(circuit) = &circuit {
+                let mut own = call;
+                own.call.qubits = circuit.qubits().into();
+                keep_budget(&loaded, &[own])?;
+            }
             circuit.map(Source::MeanPhase)
         }
         (part, _) => {
@@ -448,7 +461,11 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
     };
     let source = source.map_err(|error| failed(&error))?;
     let parts = inspection.oracle.index_parts();
-    let counts = pixel_counts(scene, &inspection.oracle, pixel)?;
+    let counts = match args.part() {
+        Part::Of(_) => pixel_counts(scene, &inspection.oracle, pixel)?,
+        // Nothing is compared.
+        Part::MeanPhase => None,
+    };
     let figures = OracleFigures::from_inspection(&inspection);
     // The phase oracle has its own program, so the inspection can be freed.
     drop(inspection);
@@ -557,10 +574,17 @@ fn allow(
             }
         }
         Source::Counting(..) => String::new(),
-        Source::MeanPhase(circuit) => format!(
-            "; each of its {} calls of the oracle takes as many",
-            grouped(circuit.queries())
-        ),
+        Source::MeanPhase(circuit) => match circuit.queries() {
+            0 | 1 => String::new(),
+            queries => {
+                // The gates of a call with its reflection.
+                let call = gates.div_ceil(queries);
+                match (args.max_gates() / call).saturating_sub(1) {
+                    0 => format!("; one call alone has some {}", grouped(call)),
+                    most => format!("; `--iterates {most}` makes it short enough"),
+                }
+            }
+        },
     };
     Err(Failure::Usage(format!(
         "{} gates, some {} of text, are more than --max-gates {}{shorter}",
@@ -650,9 +674,9 @@ impl Exported<'_> {
     fn table_in_words(&self) -> Option<String> {
         let phases = self.phases?;
         Some(format!(
-            "{} iterates; the phase of a colour x of the scale is 2 atan({} (x - {}))",
+            "iterates: {}; the phase of a colour x of the scale is 2 atan({} (x - {:.6}))",
             self.args.mean_phase().iterates,
-            phases.slope(),
+            short(phases.slope()),
             phases.reference()
         ))
     }

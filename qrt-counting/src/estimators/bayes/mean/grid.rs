@@ -269,7 +269,10 @@ impl Moments {
     #[inline(always)]
     fn after(&self, turns: &Turns, visibility: f64) -> (f64, f64) {
         let [sum, first, second] = self.sums;
-        let variance = second - first * first / sum;
+        // Probabilities add up to more than 1 when the grid has just narrowed. Then this is less than the variance,
+        // and deeper shots are preferred: `cargo bench --bench estimators -- mean 100` measured 1.85, 1.81, 1.97 and
+        // 1.98 times fewer queries than those of counting with it, and 1.83, 1.75, 1.94 and 1.99 with the variance.
+        let variance = second - first * first;
         let cosines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.cosines));
         let sines = (self.weights.each_ref()).map(|weights| dot(weights, &turns.sines));
         let mut best = (1.0, FRAC_PI_2);
