@@ -170,3 +170,24 @@ fn faces_belong_to_their_primitives_after_a_lamp_is_cut() {
     let owners: Vec<_> = (0..4).map(|polygon| valid.primitive_of(polygon)).collect();
     assert_eq!(owners, [0, 1, 1, 2]);
 }
+
+/// Nearer than 1e-4 of the radius, rounding would decide if the eye is inside; a lens of a hundredth of the
+/// radius sees from many distances.
+#[test]
+fn an_eye_may_be_near_a_sphere_and_not_on_it() {
+    let on = |height: f64, lens: &str| {
+        let text = format!(
+            "{{ name: a, film: {{ width: 1, height: 1 }}, materials: {{ m: {{ lambertian: {{ albedo: 0.5 }} }} }}, \
+             geometry: [{{ sphere: {{ center: [0, 0, 0], radius: 2, material: m }} }}], camera: {{ perspective: \
+             {{ eye: [0, 0, {}], target: [9, 0, 0], vfov: 40{lens} }} }} }}",
+            2.0 + height
+        );
+        codes_of(Scene::from_yaml(&text, "scene.yaml").unwrap()) == [codes::CAMERA_ON_SPHERE]
+    };
+    let lens = |aperture: f64| format!(", lens: {{ aperture: {aperture}, focus: 3 }}");
+    for side in [1.0, -1.0] {
+        assert!(on(0.0, "") && on(side * 1.9e-4, ""));
+        assert!(!on(side * 2.1e-4, ""));
+        assert!(on(side * 1e-4, &lens(0.019)) && !on(side * 1e-4, &lens(0.021)));
+    }
+}
