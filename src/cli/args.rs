@@ -51,7 +51,9 @@ impl SceneArgs {
             key.starts_with("counting")
         };
         let beside = sets.iter().any(of_counting);
-        if let Some(name) = estimator.filter(|name| beside && *name != "exact") {
+        if let Some(name) = estimator.filter(|_| beside) {
+            // `exact` goes with all keys of `counting`, as `auto` does.
+            let name = if name == "exact" { "auto" } else { name };
             sets.push(format!("counting.estimator={name}"));
         }
         load(&self.scene, &sets, &self.allow_files, self.memory())

@@ -730,8 +730,10 @@ fn an_estimator_is_judged_with_the_keys_that_are_set_beside_it() {
     assert_eq!(code, Some(0), "{errors}");
     let (code, errors) = run("auto", "sine");
     assert!(code == Some(2) && errors.contains("strata"), "{errors}");
-    let (code, errors) = run("auto", "exact");
-    assert_eq!(code, Some(0), "{errors}");
+    for scene in ["auto", "paper"] {
+        let (code, errors) = run(scene, "exact");
+        assert_eq!(code, Some(0), "{errors}");
+    }
 }
 
 /// An enclosed lamp and an enclosed camera make black pictures, of which the scene has no warning.
