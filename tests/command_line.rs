@@ -4,6 +4,7 @@
 mod common;
 
 mod command_line {
+    mod black_pictures;
     mod bounds;
     mod compared_pictures;
     mod count_command;

@@ -42,21 +42,18 @@ impl SceneArgs {
         load(&self.scene, &self.sets, &self.allow_files, self.memory())
     }
 
-    /// Reads the scene and checks it as one whose estimator is `estimator`, if there is one, where other keys of
-    /// `counting` are set beside it.
+    /// Reads the scene and checks it. If it is refused, `estimator` takes the place of its own: other keys of
+    /// `counting` may go with that one alone.
     pub(crate) fn load_with(&self, estimator: Option<&str>) -> Result<Loaded, Failure> {
-        let mut sets = self.sets.clone();
-        let of_counting = |set: &String| {
-            let key = set.trim_start().trim_start_matches(['"', '\'']);
-            key.starts_with("counting")
+        let loaded = self.load();
+        let Some(name) = estimator.filter(|_| loaded.is_err()) else {
+            return loaded;
         };
-        let beside = sets.iter().any(of_counting);
-        if let Some(name) = estimator.filter(|_| beside) {
-            // `exact` goes with all keys of `counting`, as `auto` does.
-            let name = if name == "exact" { "auto" } else { name };
-            sets.push(format!("counting.estimator={name}"));
-        }
-        load(&self.scene, &sets, &self.allow_files, self.memory())
+        // `exact` goes with all keys of `counting`, as `auto` does.
+        let name = if name == "exact" { "auto" } else { name };
+        let mut sets = self.sets.clone();
+        sets.push(format!("counting.estimator={name}"));
+        load(&self.scene, &sets, &self.allow_files, self.memory()).or(loaded)
     }
 }
 

@@ -76,16 +76,6 @@ enum Part {
     MeanPhase,
 }
 
-impl Part {
-    /// Returns the part of the counting circuit.
-    fn of_counting(self) -> CircuitPart {
-        match self {
-            Self::Of(part) => part,
-            Self::MeanPhase => CircuitPart::Counting,
-        }
-    }
-}
-
 const ORACLE: Part = Part::Of(CircuitPart::Oracle);
 const COUNTING: Part = Part::Of(CircuitPart::Counting);
 
@@ -423,25 +413,27 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
     let path_bits = inspection.oracle.points.path_bits();
     let bits = inspection.oracle.comparator_bits();
     let stratum = stratum_of(args, bits)?;
-    let phases = match args.part() {
-        Part::Of(_) => None,
+    let wanted = match args.part() {
+        Part::Of(part) => Wanted::Part(part),
         Part::MeanPhase => {
             // Paths may be traced for it.
             interrupt::begun();
-            Some(table(args, &inspection.oracle, pixel, &workers)?)
+            Wanted::MeanPhase(table(args, &inspection.oracle, pixel, &workers)?)
         }
     };
-    let oracle = match &phases {
-        Some(phases) => (inspection.oracle).level_phases(0, pixel.seed, pixel.place, phases),
-        None => inspection.oracle.phase(0, pixel.seed, pixel.place),
+    let oracle = match &wanted {
+        Wanted::Part(_) => inspection.oracle.phase(0, pixel.seed, pixel.place),
+        Wanted::MeanPhase(phases) => {
+            (inspection.oracle).level_phases(0, pixel.seed, pixel.place, phases)
+        }
     };
     let mut oracle = oracle.map_err(|error| failed(&error))?;
     if let Some(stratum) = stratum {
         oracle = fixed(oracle, stratum, path_bits, bits).map_err(|error| failed(&error))?;
     }
     let window = written.counting.register_window();
-    let source = match (args.part(), phases) {
-        (Part::MeanPhase, Some(phases)) => {
+    let source = match wanted {
+        Wanted::MeanPhase(phases) => {
             let asked = args.mean_phase();
             let turns = (asked.iterates, asked.basis());
             let circuit = MeanPhaseCircuit::with(&oracle, phases, turns, Conjunction::Toffolis);
@@ -452,11 +444,11 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
             }
             circuit.map(Source::MeanPhase)
         }
-        (part, _) => {
+        Wanted::Part(part) => {
             let phase_bits = written.counting.phase_bits;
             let counting =
                 CountingCircuit::with(&oracle, phase_bits, window, Conjunction::Toffolis);
-            counting.map(|counting| Source::Counting(counting, part.of_counting()))
+            counting.map(|counting| Source::Counting(counting, part))
         }
     };
     let source = source.map_err(|error| failed(&error))?;
@@ -488,7 +480,7 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
         queries: source.queries(),
         plan: prepared.plan(),
         window,
-        phases,
+        phases: wanted.phases(),
         stratum,
         counts,
         file: &file,
@@ -508,6 +500,23 @@ fn circuit(args: &ExportArgs, format: ExportFormat) -> Result<(), Failure> {
         terminal::print(&format!("{:#}\n", exported.json(&tally)))
     } else {
         terminal::print(&exported.summary(&tally))
+    }
+}
+
+/// A part of the counting circuit, or the mean phase with its table.
+#[derive(Clone, Copy)]
+enum Wanted {
+    Part(CircuitPart),
+    MeanPhase(LevelPhases),
+}
+
+impl Wanted {
+    /// Returns the table of the mean phase.
+    fn phases(self) -> Option<LevelPhases> {
+        match self {
+            Self::Part(_) => None,
+            Self::MeanPhase(phases) => Some(phases),
+        }
     }
 }
 
@@ -655,7 +664,10 @@ impl Exported<'_> {
             self.args.seed()
         )];
         lines.extend(about(part).iter().map(|line| (*line).to_owned()));
-        lines.push(format!("One call of the oracle has {}.", self.oracle.call));
+        lines.extend(
+            self.call()
+                .map(|call| format!("One call of the oracle has {call}.")),
+        );
         lines.extend(beside_oracle(part).map(str::to_owned));
         lines.extend(self.table_in_words().map(|words| format!("{words}.")));
         lines.push("The pixel's position and shifts are built in.".to_owned());
@@ -668,6 +680,11 @@ impl Exported<'_> {
         }
         lines.push("Bit 0 of each register is its least significant.".to_owned());
         lines
+    }
+
+    /// Returns a call of the oracle in words. A mean-phase circuit has another oracle, without a comparator.
+    fn call(&self) -> Option<&str> {
+        self.phases.is_none().then_some(&*self.oracle.call)
     }
 
     /// Returns the table of the mean phase in words.
@@ -688,17 +705,21 @@ impl Exported<'_> {
         };
         let part = self.args.part();
         let mut text = format!(
-            "{file}: {} of {}; {}; {}\none call of the oracle: {}\n",
+            "{file}: {} of {}; {}; {}\n",
             part_name(part),
             self.oracle.which,
             tally.text(),
-            size(tally.bytes),
-            self.oracle.call
+            size(tally.bytes)
         );
         let values = self.counts.map(|counts| counts.in_words());
-        let lines = beside_oracle(part).map(str::to_owned);
-        let lines = lines.into_iter().chain(self.table_in_words()).chain(values);
-        for line in lines {
+        let call = self
+            .call()
+            .map(|call| format!("one call of the oracle: {call}"));
+        let beside = beside_oracle(part).map(str::to_owned);
+        for line in [call, beside, self.table_in_words(), values]
+            .into_iter()
+            .flatten()
+        {
             text.push_str(&line);
             text.push('\n');
         }
@@ -727,7 +748,7 @@ impl Exported<'_> {
             "class": self.oracle.name.class_name(),
             "pixel": self.oracle.pixel.place,
             "seed": self.oracle.pixel.seed,
-            "oracle": self.oracle.json(),
+            "oracle": self.call().map(|_| self.oracle.json()),
             "beside_oracle": beside_oracle(self.args.part()),
             "queries": self.queries,
             "window": counting.then(|| self.window.name()),
