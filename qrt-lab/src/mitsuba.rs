@@ -2,7 +2,7 @@
 //!
 //! The picture of qrt's scene is the expected value of Mitsuba's `path` integrator, if the
 //! integrator stops at the same depth and never by chance. The export states explicitly what
-//! Mitsuba does differently by default: every face is flat; surfaces other than dielectrics act on
+//! Mitsuba does differently by default: faces are flat, or smooth by the normals that qrt uses; surfaces other than dielectrics act on
 //! both sides; outside of glass there is vacuum, not air; a pixel is the mean over its square; the
 //! field of view is vertical.
 //!
@@ -123,10 +123,13 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     if let Some(sky) = scene.scene().sky.filter(Sky::shines) {
         text.push_str(&emitter(&sky, stem, &mut meshes));
     }
-    let mut faces_of: Vec<Vec<&Polygon>> = vec![Vec::new(); scene.surfaces().len()];
-    for polygon in scene.polygons() {
+    let mut faces_of: Vec<Vec<Face<'_>>> = vec![Vec::new(); scene.surfaces().len()];
+    let mut smooth = scene.smooth_faces().iter().peekable();
+    for (number, polygon) in scene.polygons().iter().enumerate() {
+        let smooth = smooth.next_if(|face| face.polygon == number);
         if let Some(faces) = faces_of.get_mut(polygon.surface as usize) {
-            faces.push(polygon);
+            let normals = smooth.map(|face| face.normals);
+            faces.push(Face { polygon, normals });
         }
     }
     let used = scene.surfaces().iter().zip(&faces_of).enumerate();
@@ -134,14 +137,15 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
         // Mitsuba samples the points of a rectangle as evenly as its sampler's numbers are
         // distributed.
         let checker = surface.checker();
-        let is_lamp =
-            |face: &&&Polygon| surface.emits() && checker.is_none() && is_parallelogram(face);
-        let (lamps, faces): (Vec<_>, Vec<_>) = faces.iter().partition(is_lamp);
+        let is_lamp = |face: &&Face<'_>| {
+            surface.emits() && checker.is_none() && is_parallelogram(face.polygon)
+        };
+        let (lamps, faces): (Vec<&Face<'_>>, Vec<&Face<'_>>) = faces.iter().partition(is_lamp);
         let material = material(surface)?;
         for lamp in lamps {
             let shape = format!(
                 "    <shape type=\"rectangle\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n",
-                square_to(lamp)
+                square_to(lamp.polygon)
             );
             text.push_str(&(shape + &material));
         }
@@ -149,26 +153,25 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
             continue;
         }
         let file = format!("{stem}.{}.{}.ply", index + 1, plain(&surface.name));
+        let is_smooth = faces.iter().any(|face| face.normals.is_some());
         let shape = format!(
             "    <shape type=\"ply\">\n        <string name=\"filename\" value=\"{}\"/>\n        \
-             <boolean name=\"face_normals\" value=\"true\"/>\n",
-            escaped(&file)
+             <boolean name=\"face_normals\" value=\"{}\"/>\n",
+            escaped(&file),
+            !is_smooth
         );
         text.push_str(&(shape + &material));
         meshes.push(MeshFile {
             file,
-            bytes: match checker {
-                None => ply(&faces, |_, _| None),
-                Some(checker) => {
-                    let cells: Option<Vec<[Cell; 2]>> =
-                        faces.iter().map(|face| cells(checker, face)).collect();
-                    let Some(cells) = cells else {
-                        return Err(NoCounterpart::new(surface, CHECKER));
-                    };
-                    ply(&faces, |face, corner| {
-                        Some(cells[face].map(|cell| cell.at(corner)))
-                    })
-                }
+            bytes: {
+                let cells = faces.iter().map(|face| match checker {
+                    None => Some(None),
+                    Some(checker) => cells(checker, face.polygon).map(Some),
+                });
+                let Some(cells) = cells.collect::<Option<Vec<_>>>() else {
+                    return Err(NoCounterpart::new(surface, CHECKER));
+                };
+                ply(&faces, &cells, is_smooth)
             },
         });
     }
@@ -453,18 +456,41 @@ impl fmt::Display for Number {
     }
 }
 
-/// Writes a binary PLY file of triangles. Equal vertices are shared. A quad is split along v0 - v2.
-fn ply(faces: &[&Polygon], uv: impl Fn(usize, DVec3) -> Option<[f64; 2]>) -> Vec<u8> {
-    let mut vertices: Vec<(DVec3, Option<[f64; 2]>)> = Vec::new();
+/// A polygon, and the normals of its corners if it is smooth.
+#[derive(Clone, Copy)]
+struct Face<'a> {
+    polygon: &'a Polygon,
+    normals: Option<[DVec3; 3]>,
+}
+
+impl Face<'_> {
+    /// The normal of each corner: of a flat face its own.
+    fn normals(&self) -> [DVec3; 4] {
+        let [a, b, c, _] = self.polygon.vertices;
+        match self.normals {
+            Some([a, b, c]) => [a, b, c, c],
+            None => [(b - a).cross(c - a).normalize(); 4],
+        }
+    }
+}
+
+/// Writes a binary PLY file of triangles: their corners, with normals if `has_normals`, and with texture
+/// coordinates by the `cells` of the faces. Equal vertices are shared. A quad is split along v0 - v2.
+fn ply(faces: &[&Face<'_>], cells: &[Option<[Cell; 2]>], has_normals: bool) -> Vec<u8> {
+    let mut vertices: Vec<Vec<f64>> = Vec::new();
     let mut numbers = HashMap::new();
     let mut triangles: Vec<[u32; 3]> = Vec::new();
-    for (face, polygon) in faces.iter().enumerate() {
-        let corners = polygon.outline().iter().map(|&corner| {
-            let uv = uv(face, corner);
-            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-            let key = (bits(&corner.to_array()), uv.map(|uv| bits(&uv)));
+    for (face, cells) in faces.iter().zip(cells) {
+        let corners = face.polygon.outline().iter().zip(face.normals());
+        let corners = corners.map(|(&corner, normal)| {
+            let normal = has_normals.then(|| normal.to_array());
+            let uv = cells.map(|cells| cells.map(|cell| cell.at(corner)));
+            let mut vertex = corner.to_array().to_vec();
+            vertex.extend(normal.into_iter().flatten());
+            vertex.extend(uv.into_iter().flatten());
+            let key: Vec<u64> = vertex.iter().map(|x| x.to_bits()).collect();
             *numbers.entry(key).or_insert_with(|| {
-                vertices.push((corner, uv));
+                vertices.push(vertex);
                 (vertices.len() - 1) as u32
             })
         });
@@ -473,27 +499,22 @@ fn ply(faces: &[&Polygon], uv: impl Fn(usize, DVec3) -> Option<[f64; 2]>) -> Vec
             triangles.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
         }
     }
-    let has_uv = vertices.iter().any(|(_, uv)| uv.is_some());
-    let uv = if has_uv {
-        "property double u\nproperty double v\n"
-    } else {
-        ""
-    };
+    let has_uv = cells.iter().any(Option::is_some);
+    let names = [("x y z", true), ("nx ny nz", has_normals), ("u v", has_uv)];
+    let names = names.into_iter().filter(|(_, is_there)| *is_there);
+    let names = names.flat_map(|(names, _)| names.split(' '));
+    let properties: String = names
+        .map(|name| format!("property double {name}\n"))
+        .collect();
     let mut bytes = format!(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
-         property double z\n{uv}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n{properties}element face {}\n\
+         property list uchar int vertex_indices\nend_header\n",
         vertices.len(),
         triangles.len()
     )
     .into_bytes();
-    for (corner, uv) in vertices {
-        for value in corner
-            .to_array()
-            .into_iter()
-            .chain(uv.into_iter().flatten())
-        {
-            bytes.extend(value.to_le_bytes());
-        }
+    for value in vertices.into_iter().flatten() {
+        bytes.extend(value.to_le_bytes());
     }
     for triangle in &triangles {
         bytes.push(3);

@@ -4,6 +4,7 @@
 mod knot;
 
 use qrt::scene::front::obj;
+use qrt::scene::meshes::Wanted;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -22,7 +23,7 @@ fn the_knot_is_a_closed_tube_that_rests_on_the_floor() {
     for (around, along, tolerance) in [(8, 96, 0.05), (32, 1024, 1e-3)] {
         let path = dir.join(format!("qrt-knot-{}-{along}.obj", std::process::id()));
         std::fs::write(&path, knot::torus_knot(around, along)).unwrap();
-        let mesh = obj::load(&path, false).unwrap();
+        let mesh = obj::load(&path, Wanted::default()).unwrap();
         std::fs::remove_file(&path).unwrap();
         assert_eq!(mesh.faces.len() as u32, 2 * around * along);
 

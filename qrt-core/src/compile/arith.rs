@@ -282,6 +282,7 @@ impl Arith for Builder<'_> {
             TracerPart::Slot(number) => self.begin(StageName::Slot(number as u32), None),
             TracerPart::Sky(k) => self.begin(StageName::Sky, depth(k)),
             TracerPart::Side(k) => self.begin(StageName::Side, depth(k)),
+            TracerPart::Normal(k) => self.begin(StageName::Normal, depth(k)),
             TracerPart::Sample => self.begin(StageName::Sample, None),
             TracerPart::Component(axis) => self.begin(StageName::Component(axis as u32), None),
             TracerPart::Shade(k) => self.begin(StageName::Shade, depth(k)),

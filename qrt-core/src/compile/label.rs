@@ -99,6 +99,8 @@ pub enum StageName {
     Sky,
     /// The side on which a ray meets a surface.
     Side,
+    /// The interpolated normal of a smooth face.
+    Normal,
     /// A sampled direction in the local frame, within a ray.
     Sample,
     /// One component of a vector, within a ray: 0, 1, 2.
@@ -143,6 +145,7 @@ impl StageName {
             Self::GenerateRay => "generate_ray",
             Self::FindIntersection => "find_intersection",
             Self::Side => "side",
+            Self::Normal => "normal",
             Self::Sample => "sample",
             Self::Shade => "shade",
             Self::SampleLight => "sample_light",
@@ -186,7 +189,7 @@ pub struct Label {
 
 impl Label {
     /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
-    const PLAIN: [StageName; 16] = [
+    const PLAIN: [StageName; 17] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -203,6 +206,7 @@ impl Label {
         StageName::Sky,
         StageName::LevelPhase,
         StageName::Mesh,
+        StageName::Normal,
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.

@@ -24,7 +24,7 @@ pub enum Scope {
     Sample,
     /// A component of a vector, within a ray.
     Component,
-    /// The side on which a ray meets a surface.
+    /// The side on which a ray meets a surface, and the normal there.
     Side,
     /// The light that a vertex adds.
     Shade,
@@ -56,7 +56,7 @@ impl Scope {
             StageName::GenerateRay | StageName::SampleLight => Self::Ray,
             StageName::Sample => Self::Sample,
             StageName::Component(_) => Self::Component,
-            StageName::Side => Self::Side,
+            StageName::Side | StageName::Normal => Self::Side,
             StageName::Shade | StageName::Sky => Self::Shade,
             _ => return None,
         })

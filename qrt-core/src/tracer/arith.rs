@@ -36,6 +36,8 @@ pub enum TracerPart {
     Shade(usize),
     /// The side on which the ray of this depth meets the surface.
     Side(usize),
+    /// The interpolated normal where the ray of this depth meets a smooth face.
+    Normal(usize),
     /// The sampled direction in the local frame, within a ray.
     Sample,
     /// One component of a vector, within a ray.

@@ -176,26 +176,12 @@ impl<A: Arith> Round<A> {
             normal: vector::normalize(cx, &offset, bound),
         }
     }
-
-    /// A row of [`super::Stage::frames`]: for a sphere the tangent, the bitangent and the hit, which is
-    /// then the next start.
-    #[inline(always)]
-    pub(super) fn frame(&self, cx: &mut A, polygon: &[A::Real; 9]) -> [A::Real; 9] {
-        let [t, b] = tangents(cx, &self.normal);
-        let p = self.point;
-        let own = [t[0], t[1], t[2], b[0], b[1], b[2], p[0], p[1], p[2]];
-        let mut row = *polygon;
-        for (entry, own) in row.iter_mut().zip(own) {
-            *entry = cx.select(self.is, own, *entry);
-        }
-        row
-    }
 }
 
 /// A tangent and a bitangent of a unit normal (Duff et al., Building an Orthonormal Basis, Revisited,
 /// 2017).
 #[inline(always)]
-fn tangents<A: Arith>(cx: &mut A, &[x, y, z]: &Vector<A>) -> [Vector<A>; 2] {
+pub(super) fn tangents<A: Arith>(cx: &mut A, &[x, y, z]: &Vector<A>) -> [Vector<A>; 2] {
     let below = math!(cx, z < 0.0);
     let height = cx.abs(z);
     let inverse = math!(cx, div(1.0, 1.0 + height, 1.0));

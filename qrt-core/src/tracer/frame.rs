@@ -1,11 +1,11 @@
 //! The frame itself: the paper's `Path Tracing`, stage by stage.
 
 use super::arith::Segment;
-use super::ball_ray::Round;
+use super::ball_ray::{Round, tangents};
 use super::bsdf::Vertex;
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
-use super::ray::{NearestSearch, Ray, Start};
+use super::ray::{NearestSearch, Ray, Start, point_at};
 use super::vector::{self, Vector};
 use super::{Arith, Named, Quantity, Stage, TracerPart};
 
@@ -97,6 +97,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             bitangent: [zero; 3],
             normal: [zero; 3],
             cos_theta: zero,
+            bent: None,
             front: alive,
             surface,
             tint: surface,
@@ -141,10 +142,20 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             break;
         }
         vertex.alive = alive;
+        if let Some(smooth) = &stage.smooth {
+            cx.enter(TracerPart::Normal(depth));
+            let point = match &round {
+                Some(round) => round.point,
+                None => point_at(cx, &ray, hit.distance),
+            };
+            let [.., gx, gy, gz] = cx.rows(&stage.frames, hit.face);
+            smooth.bend(cx, &mut vertex, hit.face, (&point, &[gx, gy, gz]));
+            cx.leave();
+        }
         let mut known = None;
         if let Some(lights) = &scatter.lights {
             cx.enter(TracerPart::SampleLight(depth + 1));
-            let frame = frame(cx, stage, hit.face, round.as_ref());
+            let frame = frame(cx, stage, hit.face, round.as_ref(), &vertex);
             let leaves = Leaves {
                 origin: start(cx, &ray, hit.distance, &frame),
                 from: cx.entry(&stage.geometry.plane_of, hit.face),
@@ -173,7 +184,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         cx.enter(TracerPart::GenerateRay(depth + 1));
         let frame = match known {
             Some((frame, _)) => frame,
-            None => frame(cx, stage, hit.face, round.as_ref()),
+            None => frame(cx, stage, hit.face, round.as_ref(), &vertex),
         };
         vertex.stand(&frame);
         let pattern = stage.checkers.as_ref().filter(|_| known.is_none());
@@ -192,6 +203,9 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             vertex.tint = checkers.row(cx, origin, hit.face, surface);
         }
         let scattered = scatter.scatter(cx, &vertex);
+        if let Some(stays) = vertex.stays(cx, &scattered.direction) {
+            alive = cx.and(alive, stays);
+        }
         let origin = match origin {
             Some(origin) => origin,
             None => start(cx, &ray, hit.distance, &frame),
@@ -220,19 +234,34 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
     colour
 }
 
-/// The row of [`Stage::frames`] of a hit.
+/// The row of [`Stage::frames`] of a hit, at a vertex with its final normal. On a sphere or a smooth face
+/// the tangents follow from the normal, and the centre of a sphere's hit is the hit itself: the next start.
 #[inline(always)]
 fn frame<A: Arith, const C: usize>(
     cx: &mut A,
     stage: &Stage<C>,
     face: A::Index,
     round: Option<&Round<A>>,
+    vertex: &Vertex<A>,
 ) -> [A::Real; 9] {
-    let row = cx.rows(&stage.frames, face);
-    match round {
-        Some(round) => round.frame(cx, &row),
-        None => row,
+    let mut row = cx.rows(&stage.frames, face);
+    let computed = match (round, &vertex.bent) {
+        (None, None) => return row,
+        (Some(round), None) => round.is,
+        (None, Some(bent)) => bent.is,
+        (Some(round), Some(bent)) => cx.or(round.is, bent.is),
+    };
+    let [t, b] = tangents(cx, &vertex.normal);
+    let own = [t[0], t[1], t[2], b[0], b[1], b[2]];
+    for (entry, own) in row.iter_mut().zip(own) {
+        *entry = cx.select(computed, own, *entry);
     }
+    if let Some(round) = round {
+        for (entry, point) in row[6..].iter_mut().zip(round.point) {
+            *entry = cx.select(round.is, point, *entry);
+        }
+    }
+    row
 }
 
 /// The start of the next ray, on a face with this row of [`Stage::frames`].

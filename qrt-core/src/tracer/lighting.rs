@@ -46,7 +46,10 @@ impl<A: Arith, N: NearestSearch<A>, const C: usize> Work<A> for Lighting<'_, A, 
         let lit = cx.is(lit, 1);
         let both = math!(cx, rise * fall);
         // If `both` is 0, the divisors may be 0 too: coarse numbers soon are.
-        let wanted = math!(cx, at.alive && lit && 0.0 < both);
+        let mut wanted = math!(cx, at.alive && lit && 0.0 < both);
+        if let Some(stays) = at.stays(cx, &point.to) {
+            wanted = cx.and(wanted, stays);
+        }
         if !cx.any(wanted) {
             cx.leave();
             return None;

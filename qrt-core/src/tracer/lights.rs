@@ -26,6 +26,7 @@ use super::ball::StageBall;
 use super::geometry::StageGeometry;
 use super::places::Places;
 use super::radiance::in_units;
+use super::smooth::SmoothStage;
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Sampled};
 use qrt_scene::Lights;
@@ -57,7 +58,7 @@ impl Lamps {
     /// None if nothing emits, or if an emitter's shape cannot be sampled; a scene that samples lamps
     /// has no emitter of that kind.
     pub(super) fn new(
-        geometry: &StageGeometry,
+        (geometry, smooth): (&StageGeometry, Option<&SmoothStage>),
         surfaces: &[&Surface],
         surface_of: &[u32],
         places: &Places,
@@ -86,9 +87,13 @@ impl Lamps {
             let polygons = geometry.faces.iter().map(|face| face.label);
             polygons.chain(geometry.balls.iter().map(|ball| ball.label))
         };
+        let is_smooth = |label: u32| smooth.is_some_and(|smooth| smooth.is_smooth(label));
         let face_of = |label: u32| {
             if let Some(outline) = geometry.corners.get(label as usize) {
-                return LitFace::Polygon(outline);
+                return match is_smooth(label) {
+                    true => LitFace::Smooth(outline),
+                    false => LitFace::Polygon(outline),
+                };
             }
             let ball = &geometry.balls[label as usize - geometry.corners.len()];
             LitFace::Sphere {
@@ -111,7 +116,7 @@ impl Lamps {
         let number = faces.len();
         let forms = |(lamp, face): (usize, &u32)| {
             let by_surface = |surface: u32| reached[surface as usize][lamp].form;
-            places.lit_by(geometry, (*face, number), by_surface)
+            places.lit_by(geometry, (*face, number), is_smooth, by_surface)
         };
         Some(Self {
             forms: faces.iter().enumerate().map(forms).collect(),

@@ -49,6 +49,7 @@ mod sampled;
 mod scalar;
 mod search;
 mod sky;
+mod smooth;
 mod stage;
 pub(crate) mod vector;
 

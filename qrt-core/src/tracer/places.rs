@@ -116,11 +116,12 @@ impl Places {
     }
 
     /// An upper bound of `q / r^4` by place, for the light of face `lamp`, one of `lamps` lamps.
-    /// `by_surface` gives the bound of a surface.
+    /// `is_smooth` is true for faces with interpolated normals; `by_surface` gives the bound of a surface.
     pub(crate) fn lit_by(
         &self,
         geometry: &StageGeometry,
         (lamp, lamps): (u32, usize),
+        is_smooth: impl Fn(u32) -> bool,
         by_surface: impl Fn(u32) -> f64,
     ) -> Vec<f64> {
         // Lamps are spheres only where places are whole surfaces.
@@ -134,7 +135,8 @@ impl Places {
             if self.seen.is_none() || known == 0.0 {
                 known
             } else if before(geometry, place, lamp) {
-                known.min(strongest_form(&geometry.corners[place / 2], lamp, parts))
+                let (face, smooth) = (place / 2, is_smooth(place as u32 / 2));
+                known.min(strongest_form(&geometry.corners[face], smooth, lamp, parts))
             } else {
                 0.0
             }

@@ -12,6 +12,7 @@ use super::polygon::FaceFrame;
 use super::ray::{self, Ray};
 use super::refraction::Refraction;
 use super::sky::SkyStage;
+use super::smooth::SmoothStage;
 use super::{Arith, bound};
 use glam::DVec3;
 use qrt_scene::valid::{Surface, ValidScene};
@@ -43,6 +44,8 @@ pub struct Stage<const C: usize> {
     /// By face: the centre of its sphere and the inverse of the radius; zeros for a polygon. Empty
     /// without spheres.
     pub(crate) balls: Vec<[f64; 4]>,
+    /// The normals of smooth faces, if there are any.
+    pub(crate) smooth: Option<SmoothStage>,
     /// The choice among the colours of surfaces that have two.
     pub(crate) checkers: Option<Checkers>,
     pub(crate) emitters: Emitters<C>,
@@ -117,12 +120,18 @@ impl<const C: usize> Stage<C> {
         let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
         let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
         let transmits: Vec<bool> = surface_of.iter().map(transmits).collect();
+        let smooth = SmoothStage::new(&geometry, scene.smooth_faces(), &transmits);
         let starts = geometry.staged(&starts);
         let (places, lamps) = if lit {
             let number = geometry.emitters as usize;
             let of = (&*surface_of, surfaces.len());
             let places = Places::sides(&geometry, of, &transmits, &starts, number);
-            let lamps = Lamps::new(&geometry, &surfaces, &surface_of, &places);
+            let lamps = Lamps::new(
+                (&geometry, smooth.as_ref()),
+                &surfaces,
+                &surface_of,
+                &places,
+            );
             (places, lamps)
         } else {
             (Places::surfaces(surfaces.len()), None)
@@ -201,6 +210,7 @@ impl<const C: usize> Stage<C> {
             normals,
             frames: rows,
             balls,
+            smooth,
             checkers,
             emitters,
             every_hit: sky.is_some(),

@@ -2,7 +2,7 @@
 
 use super::meshes::{Faces, bytes_of};
 use super::{Files, gltf, obj, ply};
-use crate::scene::meshes::{FileError, FilePlace, Meshes};
+use crate::scene::meshes::{FileError, FilePlace, Meshes, Wanted};
 use crate::scene::{Geometry, MeshFormat, Scene};
 use crate::syntax::MeshFile;
 use std::cell::Cell;
@@ -16,12 +16,12 @@ const BYTES_OF_FACE: u64 = 256;
 
 /// Reads the meshes that a scene names. Each file is read once, even if several entries name it.
 pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
-    let mut wanted = BTreeMap::<(MeshFormat, &str), BTreeSet<bool>>::new();
+    let mut wanted = BTreeMap::<(MeshFormat, &str), BTreeSet<Wanted>>::new();
     for primitive in &scene.geometry {
         if let Geometry::Mesh(mesh) = primitive {
             let Some(file) = mesh.file() else { continue };
             let kinds = wanted.entry(file).or_default();
-            kinds.insert(mesh.material.is_none());
+            kinds.insert(Wanted::of_mesh(mesh));
         }
     }
     let most_bytes = files.faces_allowed() as u64 * BYTES_OF_FACE;
@@ -44,24 +44,20 @@ pub fn load_all(scene: &Scene, files: Files<'_>) -> Meshes {
     for ((format, name), kinds) in wanted {
         let path = files.path(name);
         let bytes = bytes_of(files, &path, false).and_then(counted);
-        for wants_materials in kinds {
+        for parts in kinds {
             let parsed = bytes
                 .as_ref()
                 .map_err(|what| FileError::new(what.clone(), &path, FilePlace::Whole))
                 .and_then(|bytes| {
                     let library = &mut library;
                     match format {
-                        MeshFormat::Obj => {
-                            obj::parse(&path, bytes, wants_materials, faces, library)
-                        }
-                        MeshFormat::Ply => ply::parse(&path, bytes, wants_materials, faces),
-                        MeshFormat::Gltf => {
-                            gltf::parse(&path, bytes, wants_materials, faces, library)
-                        }
+                        MeshFormat::Obj => obj::parse(&path, bytes, parts, faces, library),
+                        MeshFormat::Ply => ply::parse(&path, bytes, parts, faces),
+                        MeshFormat::Gltf => gltf::parse(&path, bytes, parts, faces, library),
                     }
                 });
             let mesh = parsed.inspect(|mesh| faces.left -= mesh.faces.len());
-            meshes.insert(format, name, wants_materials, mesh);
+            meshes.insert(format, name, parts, mesh);
         }
     }
     meshes

@@ -7,7 +7,7 @@ pub(super) mod surface;
 use super::{Files, Unread};
 use crate::scene::meshes::MOST_FACES;
 use crate::syntax::MeshFile;
-pub(super) use collect::Collector;
+pub(super) use collect::{Collector, Normals};
 use std::path::Path;
 use std::rc::Rc;
 

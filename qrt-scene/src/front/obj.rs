@@ -14,26 +14,26 @@ mod scan;
 mod tests;
 
 use super::Files;
-use super::meshes::{Collector, Faces, Library, MAX_BYTES, bytes_of, unread};
-use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace};
+use super::meshes::{Collector, Faces, Library, MAX_BYTES, Normals, bytes_of, unread};
+use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace, Wanted};
 use crate::syntax::{MeshFile, line_after, line_starts};
 use glam::DVec3;
 use mtl::Materials;
-use scan::Scanner;
+use scan::{OfFace, Scanner};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
 use std::rc::Rc;
 
-/// Reads a mesh, and with `wants_materials` the libraries that it names, which stand beside it or
-/// below its folder.
+/// Reads a mesh and its `wanted` parts. The libraries of its materials stand beside it or below its
+/// folder.
 ///
 /// ```
-/// use qrt_scene::front::obj;
+/// use qrt_scene::{front::obj, meshes::Wanted};
 /// let path = std::env::temp_dir().join(format!("qrt-doc-{}.obj", std::process::id()));
 /// std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")?;
-/// let square = obj::load(&path, false)?;
+/// let square = obj::load(&path, Wanted::default())?;
 /// assert_eq!(square.faces.len(), 2);
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,32 +42,26 @@ use std::rc::Rc;
 /// # Errors
 ///
 /// The first problem of the file: see [`FileError`].
-pub fn load(path: &Path, wants_materials: bool) -> Result<FileMesh, FileError> {
+pub fn load(path: &Path, wanted: Wanted) -> Result<FileMesh, FileError> {
     let files = Files::of_folder(path.parent().unwrap_or(Path::new("")));
     let bytes = files.read_named(path, MAX_BYTES);
     let bytes: Rc<[u8]> = bytes
         .map_err(|why| FileError::new(unread(files, path, false, why), path, FilePlace::Whole))?
         .into();
     let mut library = |path: &Path| bytes_of(files, path, true);
-    parse(
-        path,
-        &bytes,
-        wants_materials,
-        Faces::default(),
-        &mut library,
-    )
+    parse(path, &bytes, wanted, Faces::default(), &mut library)
 }
 
 /// Reads a mesh as [`load`] does, from its bytes.
 pub(super) fn parse(
     path: &Path,
     bytes: &[u8],
-    wants_materials: bool,
+    wanted: Wanted,
     faces: Faces,
     library: Library<'_>,
 ) -> Result<FileMesh, FileError> {
     let text = text_of(path, bytes)?;
-    let mut scanner = Scanner::new(path, &text, wants_materials, faces);
+    let mut scanner = Scanner::new(path, &text, wanted, faces);
     let mut shape = BufReader::new(&mut scanner);
     // The scanner passes no `mtllib` on.
     let no_library = |_: &Path| tobj::load_mtl_buf(&mut std::io::empty());
@@ -85,24 +79,39 @@ pub(super) fn parse(
     let corner = |index: &u32| DVec3::from_slice(&mesh.positions[3 * *index as usize..]);
     let mut corners = mesh.indices.iter().map(corner);
     let mut collector = Collector::default();
-    for (number, (line, use_before)) in scanner.faces.iter().enumerate() {
+    let mut corner_normals = scanner.corner_normals.iter();
+    for (number, face) in scanner.faces.iter().enumerate() {
         // Without arities, every face is a triangle.
         let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);
-        let face: Vec<DVec3> = corners.by_ref().take(arity).collect();
-        let added = collector.add(&face, *use_before, number as u32);
-        added.map_err(|what| FileError::new(what, path, *line))?;
+        let corners: Vec<DVec3> = corners.by_ref().take(arity).collect();
+        let normal = |place: &Option<usize>| {
+            let normal = place.and_then(|place| scanner.normals.get(place));
+            normal.copied().unwrap_or_default()
+        };
+        let normals: Vec<DVec3> = match face.normals {
+            OfFace::Corners => corner_normals.by_ref().take(arity).map(normal).collect(),
+            OfFace::Group(_) | OfFace::None => Vec::new(),
+        };
+        let normals = match face.normals {
+            OfFace::None => Normals::Flat,
+            OfFace::Corners => Normals::OfCorners(&normals),
+            OfFace::Group(group) => Normals::OfGroup(group),
+        };
+        let added = collector.add(&corners, normals, face.material, number as u32);
+        added.map_err(|what| FileError::new(what, path, face.line))?;
     }
-    let line = |number: u32| FilePlace::Line(scanner.faces[number as usize].0);
-    let (mut faces, mut notes) = collector.finish(path, line)?;
+    let line = |number: u32| FilePlace::Line(scanner.faces[number as usize].line);
+    let mut read = collector.finish(path, line)?;
     if let Some((keyword, line)) = scanner.shapeless {
-        notes.push(FileError::new(MeshFile::Shapeless { keyword }, path, line));
+        let note = FileError::new(MeshFile::Shapeless { keyword }, path, line);
+        read.notes.push(note);
     }
 
-    let mut files = vec![path.to_owned()];
-    let mut library = Materials::read(path, &scanner.libraries, library, &mut files);
+    let mut library = Materials::read(path, &scanner.libraries, library, &mut read.files);
     let mut materials = Vec::<FileMaterial>::new();
     let (mut by_name, mut by_use) = (HashMap::new(), vec![None; scanner.uses.len()]);
-    for number in faces.iter_mut().filter_map(|face| face.material.as_mut()) {
+    let used = read.faces.iter_mut();
+    for number in used.filter_map(|face| face.material.as_mut()) {
         let (name, line) = &scanner.uses[*number];
         *number = *by_use[*number].get_or_insert_with(|| {
             *by_name.entry(name).or_insert_with(|| {
@@ -111,13 +120,9 @@ pub(super) fn parse(
             })
         });
     }
-    notes.extend(library.unneeded());
-    Ok(FileMesh {
-        faces,
-        materials,
-        files,
-        notes,
-    })
+    read.notes.extend(library.unneeded());
+    read.materials = materials;
+    Ok(read)
 }
 
 /// Returns a file as text. Bytes that are not UTF-8 do no harm in a comment.

@@ -7,8 +7,8 @@
 #[cfg(test)]
 mod tests;
 
-use super::meshes::{Collector, Faces};
-use crate::scene::meshes::{FileError, FileMesh, FilePlace};
+use super::meshes::{Collector, Faces, Normals};
+use crate::scene::meshes::{FileError, FileMesh, FilePlace, Wanted};
 use crate::syntax::{MeshFile, line_after};
 use glam::DVec3;
 use std::path::Path;
@@ -95,11 +95,11 @@ struct Header {
 pub(super) fn parse(
     path: &Path,
     bytes: &[u8],
-    wants_materials: bool,
+    wanted: Wanted,
     faces: Faces,
 ) -> Result<FileMesh, FileError> {
     let whole = |what| FileError::new(what, path, FilePlace::Whole);
-    if wants_materials {
+    if wanted.materials {
         return Err(whole(MeshFile::NoMaterials));
     }
     let header = header(bytes).map_err(|(what, at)| {
@@ -111,7 +111,7 @@ pub(super) fn parse(
         at: header.end,
         encoding: header.encoding,
     };
-    let mut mesh = Mesh::new(faces);
+    let mut mesh = Mesh::new(faces, wanted.normals);
     let (mut has_vertices, mut has_faces) = (false, false);
     for element in &header.elements {
         let is_first = |seen: &mut bool| !std::mem::replace(seen, true);
@@ -144,6 +144,7 @@ pub(super) fn parse(
     }
     let Mesh {
         vertices,
+        normals,
         corners,
         ends,
         ..
@@ -164,18 +165,22 @@ pub(super) fn parse(
             let found = vertices.get(index as usize).copied();
             found.ok_or_else(|| fail(MeshFile::PlyIndex { index, count }))
         };
-        let face = corners[first..end.corners].iter().map(corner);
+        let indices = &corners[first..end.corners];
+        let face = indices.iter().map(corner);
         let face: Vec<DVec3> = face.collect::<Result<_, _>>()?;
-        collector.add(&face, None, number).map_err(fail)?;
+        let of_corners = indices
+            .iter()
+            .filter_map(|&index| normals.get(index as usize));
+        let of_corners: Vec<DVec3> = of_corners.copied().collect();
+        let of_corners = match of_corners[..] {
+            [] => Normals::Flat,
+            _ => Normals::OfCorners(&of_corners),
+        };
+        let added = collector.add(&face, of_corners, None, number);
+        added.map_err(fail)?;
         first = end.corners;
     }
-    let (faces, notes) = collector.finish(path, place)?;
-    Ok(FileMesh {
-        faces,
-        materials: Vec::new(),
-        files: vec![path.to_owned()],
-        notes,
-    })
+    collector.finish(path, place)
 }
 
 /// Reads the header. An error has the place of its line, in bytes.
@@ -372,7 +377,10 @@ impl Data<'_> {
 /// The vertices and faces so far.
 struct Mesh {
     most: Faces,
+    wants_normals: bool,
     vertices: Vec<DVec3>,
+    /// By vertex; empty if the file has none or if they are not wanted.
+    normals: Vec<DVec3>,
     /// The indices of the corners of all faces.
     corners: Vec<u32>,
     ends: Vec<End>,
@@ -388,10 +396,12 @@ struct End {
 }
 
 impl Mesh {
-    fn new(most: Faces) -> Self {
+    fn new(most: Faces, wants_normals: bool) -> Self {
         Self {
             most,
+            wants_normals,
             vertices: Vec::new(),
+            normals: Vec::new(),
             corners: Vec::new(),
             ends: Vec::new(),
             triangles: 0,
@@ -408,12 +418,18 @@ impl Mesh {
         if element.count > most as u64 {
             return Err(MeshFile::ManyVertices { most });
         }
+        let place = |property: &str| {
+            let is_meant = |p: &Property| p.name == property && p.list.is_none();
+            element.properties.iter().position(is_meant)
+        };
         let mut axes = Vec::new();
         for property in ["x", "y", "z"] {
-            let is_axis = |p: &Property| p.name == property && p.list.is_none();
-            let axis = element.properties.iter().position(is_axis);
-            axes.push(axis.ok_or(MeshFile::PlyNoCoordinate { property })?);
+            axes.push(place(property).ok_or(MeshFile::PlyNoCoordinate { property })?);
         }
+        let normal = match ["nx", "ny", "nz"].map(place) {
+            [Some(x), Some(y), Some(z)] if self.wants_normals => Some([x, y, z]),
+            _ => None,
+        };
         let mut values = vec![0.0; element.properties.len()];
         for _ in 0..element.count {
             for (value, property) in values.iter_mut().zip(&element.properties) {
@@ -430,6 +446,16 @@ impl Mesh {
                 return Err(MeshFile::NotFinite { word, is_library });
             }
             self.vertices.push(vertex);
+            if let Some(places) = normal {
+                let normal = DVec3::from_array(places.map(|place| values[place]));
+                // The face's own normal replaces one that is not finite.
+                let normal = if normal.is_finite() {
+                    normal
+                } else {
+                    DVec3::ZERO
+                };
+                self.normals.push(normal);
+            }
             *number += 1;
         }
         Ok(())

@@ -9,6 +9,8 @@ use glam::DVec3;
 pub enum LitFace<'a> {
     /// The corners of a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
     Polygon(&'a [DVec3]),
+    /// The corners of a triangle that is shaded by interpolated normals. It emits as a polygon does.
+    Smooth(&'a [DVec3]),
     /// A sphere, whose front is outside.
     Sphere {
         /// The centre.
@@ -20,7 +22,7 @@ pub enum LitFace<'a> {
 
 /// Returns bounds over all points of the faces of a `surface` and all points of a `lamp`.
 pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFace<'_>) -> Reached {
-    let mut polygons = Vec::new();
+    let (mut polygons, mut smooth) = (Vec::new(), Vec::new());
     let mut most = Reached {
         form: 0.0,
         nearness: 0.0,
@@ -31,12 +33,17 @@ pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFac
     };
     for face in surface {
         match (face, lamp) {
-            (LitFace::Polygon(outline), LitFace::Polygon(_)) => polygons.push(outline),
-            _ => join(near(face, lamp)),
+            (_, LitFace::Sphere { .. }) | (LitFace::Sphere { .. }, _) => join(near(face, lamp)),
+            (LitFace::Polygon(outline), _) => polygons.push(outline),
+            (LitFace::Smooth(outline), _) => smooth.push(outline),
         }
     }
-    if let (LitFace::Polygon(lamp), false) = (lamp, polygons.is_empty()) {
-        join(strongest(polygons.into_iter(), lamp));
+    if let LitFace::Polygon(lamp) | LitFace::Smooth(lamp) = lamp {
+        for (faces, is_smooth) in [(polygons, false), (smooth, true)] {
+            if !faces.is_empty() {
+                join(strongest(&faces, is_smooth, lamp));
+            }
+        }
     }
     most
 }
@@ -46,14 +53,17 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
     let is_dark = match (face, lamp) {
         // A sphere shines outwards alone, so it does not light itself.
         (_, LitFace::Sphere { .. }) if face == lamp => true,
-        (LitFace::Sphere { centre, radius }, LitFace::Polygon(lamp)) => {
+        (LitFace::Sphere { centre, radius }, LitFace::Polygon(lamp) | LitFace::Smooth(lamp)) => {
             let normal = (lamp[1] - lamp[0])
                 .cross(lamp[2] - lamp[0])
                 .normalize_or_zero();
             normal.dot(centre - lamp[0]) + radius <= 0.0
         }
         // The surface is within the sphere, whose light goes outwards.
-        (LitFace::Polygon(outline), LitFace::Sphere { centre, radius }) => outline
+        (
+            LitFace::Polygon(outline) | LitFace::Smooth(outline),
+            LitFace::Sphere { centre, radius },
+        ) => outline
             .iter()
             .all(|corner| corner.distance(centre) < radius),
         (
@@ -66,7 +76,8 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
                 radius: big,
             },
         ) => a.distance(b) + r < big,
-        (LitFace::Polygon(_), LitFace::Polygon(_)) => false,
+        // Neither is a sphere.
+        _ => false,
     };
     if is_dark {
         return Reached {
@@ -103,13 +114,20 @@ fn distance(a: LitFace<'_>, b: LitFace<'_>) -> f64 {
             let apart = a.distance(b);
             (apart - r - s).max((r - s).abs() - apart)
         }
-        (LitFace::Polygon(outline), LitFace::Sphere { centre, radius })
-        | (LitFace::Sphere { centre, radius }, LitFace::Polygon(outline)) => {
+        (
+            LitFace::Polygon(outline) | LitFace::Smooth(outline),
+            LitFace::Sphere { centre, radius },
+        )
+        | (
+            LitFace::Sphere { centre, radius },
+            LitFace::Polygon(outline) | LitFace::Smooth(outline),
+        ) => {
             let far = outline.iter().map(|corner| corner.distance(centre));
             let within = radius - far.fold(0.0, f64::max);
             (polygon_distance(outline, centre) - radius).max(within)
         }
-        (LitFace::Polygon(_), LitFace::Polygon(_)) => 0.0,
+        // Neither is a sphere.
+        _ => 0.0,
     }
 }
 
@@ -158,6 +176,14 @@ mod tests {
         DVec3::new(-1.0, 1.0, 0.0),
     ];
 
+    /// Shines on [`SQUARE`] from above, at a slant.
+    const LAMP: [DVec3; 4] = [
+        DVec3::new(-0.5, -0.5, 1.5),
+        DVec3::new(-0.5, 0.5, 1.5),
+        DVec3::new(0.5, 0.5, 2.5),
+        DVec3::new(0.5, -0.5, 2.5),
+    ];
+
     #[test]
     fn a_polygons_distance_is_that_of_its_nearest_point() {
         for (point, expected) in [
@@ -189,28 +215,35 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let mut point = |face: LitFace<'_>| match face {
-            LitFace::Polygon(_) => {
-                let point = DVec3::new(2.0 * random() - 1.0, 2.0 * random() - 1.0, 0.0);
-                (point, DVec3::Z)
+            LitFace::Polygon(square) | LitFace::Smooth(square) => {
+                let edges = [square[1] - square[0], square[3] - square[0]];
+                let point = square[0] + edges[0] * random() + edges[1] * random();
+                // Any direction, so also that to the lamp.
+                let is_smooth = matches!(face, LitFace::Smooth(_));
+                let normal = edges[0].cross(edges[1]).normalize();
+                (point, (!is_smooth).then_some(normal))
             }
             LitFace::Sphere { centre, radius } => {
                 let z = 2.0 * random() - 1.0;
                 let (sin, cos) = (std::f64::consts::TAU * random()).sin_cos();
                 let across = (1.0 - z * z).sqrt();
                 let normal = DVec3::new(across * cos, across * sin, z);
-                (centre + normal * radius, normal)
+                (centre + normal * radius, Some(normal))
             }
         };
         for (surface, lamp) in [
             (LitFace::Polygon(&SQUARE), ball(2.0, 0.5)),
             (ball(2.0, 0.5), LitFace::Polygon(&SQUARE)),
             (ball(2.0, 0.5), ball(0.0, 0.25)),
+            (LitFace::Smooth(&SQUARE), ball(2.0, 0.5)),
+            (LitFace::Smooth(&SQUARE), LitFace::Polygon(&LAMP)),
         ] {
             let bound = strongest_of([surface].into_iter(), lamp).form;
             let mut greatest: f64 = 0.0;
             for _ in 0..20_000 {
                 let ((x, n), (y, m)) = (point(surface), point(lamp));
                 let d = y - x;
+                let (n, m) = (n.unwrap_or(d.normalize()), m.unwrap_or_default());
                 let q = n.dot(d).abs() * (-m.dot(d)).max(0.0);
                 greatest = greatest.max(q / d.length_squared().powi(2));
             }

@@ -36,26 +36,38 @@ impl Reached {
 /// Returns bounds over all points `x` of the polygons `surface` and all points `y` of the polygon
 /// `lamp`. Light may arrive on either side of the surface; the lamp emits on its front.
 ///
-/// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
-pub fn strongest<'a>(surface: impl Iterator<Item = &'a [DVec3]>, lamp: &[DVec3]) -> Reached {
-    let faces: Vec<&[DVec3]> = surface.collect();
+/// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front. `is_smooth` tells that the
+/// surface is shaded by interpolated normals: `n` may then have any direction.
+pub fn strongest(surface: &[&[DVec3]], is_smooth: bool, lamp: &[DVec3]) -> Reached {
     Reached {
-        form: known(&faces, lamp, Bound::Form, MOST_PAIRS),
-        nearness: known(&faces, lamp, Bound::Nearness, MOST_PAIRS),
+        form: known(surface, lamp, Bound::of_form(is_smooth), MOST_PAIRS),
+        nearness: known(surface, lamp, Bound::Nearness, MOST_PAIRS),
     }
 }
 
-/// Returns the bound of `q / r^4` for one polygon, but looser: it examines at most `most_pairs`
-/// pairs of parts.
-pub fn strongest_form(face: &[DVec3], lamp: &[DVec3], most_pairs: usize) -> f64 {
-    known(&[face], lamp, Bound::Form, most_pairs)
+/// Returns the bound of `q / r^4` for one polygon, as [`strongest`] does but looser: it examines at most
+/// `most_pairs` pairs of parts.
+pub fn strongest_form(face: &[DVec3], is_smooth: bool, lamp: &[DVec3], most_pairs: usize) -> f64 {
+    known(&[face], lamp, Bound::of_form(is_smooth), most_pairs)
 }
 
 /// A quantity that is bounded.
 #[derive(Clone, Copy)]
 enum Bound {
     Form,
+    /// The form where `n` may have any direction.
+    SmoothForm,
     Nearness,
+}
+
+impl Bound {
+    fn of_form(is_smooth: bool) -> Self {
+        if is_smooth {
+            Self::SmoothForm
+        } else {
+            Self::Form
+        }
+    }
 }
 
 /// Bounds that have been computed, by 128 bits of a hash of what they are of. A scene's programs, one
@@ -86,6 +98,7 @@ fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f6
     let pairs = pairs.flat_map(|face| lamp.iter().map(move |lamp| [face, *lamp]));
     let bound = match of {
         Bound::Form => form,
+        Bound::SmoothForm => smooth_form,
         Bound::Nearness => nearness,
     };
     let most = supremum(pairs, bound, most_pairs);
@@ -177,6 +190,14 @@ fn form(face: &Triangle, lamp: &Triangle) -> f64 {
         return f64::INFINITY;
     }
     (n / r).min(1.0) * (m / r).min(1.0) / (r * r)
+}
+
+fn smooth_form(face: &Triangle, lamp: &Triangle) -> f64 {
+    match seen(face, lamp) {
+        None => 0.0,
+        Some([.., r]) if r == 0.0 => f64::INFINITY,
+        Some([_, m, r]) => (m / r).min(1.0) / (r * r),
+    }
 }
 
 fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {

@@ -18,7 +18,7 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
         let lamp = square([-0.1, height, -0.1], [0.2, 0.0, 0.0], [0.0, 0.0, 0.2]);
         assert!(Lamp::new(&lamp).unwrap().normal.y < 0.0);
         let floor = square([-4.0, 0.0, -4.0], [0.0, 0.0, 8.0], [8.0, 0.0, 0.0]);
-        let reached = strongest([&floor[..]].into_iter(), &lamp);
+        let reached = strongest(&[&floor[..]], false, &lamp);
         let exact = 1.0 / (height * height);
         assert!(
             reached.form >= exact && reached.form <= 1.2 * exact,
@@ -28,7 +28,7 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
         // From behind nothing arrives.
         let mut turned = lamp;
         turned.reverse();
-        let dark = strongest([&floor[..]].into_iter(), &turned);
+        let dark = strongest(&[&floor[..]], false, &turned);
         assert_eq!(dark, NOTHING);
     }
 }
@@ -37,10 +37,10 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
 fn what_touches_a_lamp_has_no_bound_and_what_lies_in_its_plane_is_not_lit() {
     let lamp = square([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let wall = square([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    let reached = strongest([&wall[..]].into_iter(), &lamp);
+    let reached = strongest(&[&wall[..]], false, &lamp);
     assert_eq!(reached.form, f64::INFINITY);
     let beside = square([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    let reached = strongest([&beside[..]].into_iter(), &lamp);
+    let reached = strongest(&[&beside[..]], false, &lamp);
     assert_eq!(reached, NOTHING);
 }
 
@@ -59,7 +59,7 @@ fn no_pair_of_points_exceeds_the_bound() {
     let at = Lamp::new(&lamp).unwrap();
     for face in &faces {
         for lit in [&lamp[..], &[lamp[0], lamp[2], lamp[1]]] {
-            let reached = strongest([&face[..]].into_iter(), lit);
+            let reached = strongest(&[&face[..]], false, lit);
             let from = Lamp::new(lit).unwrap();
             let receiver = Lamp::new(face).unwrap();
             let mut most: f64 = 0.0;

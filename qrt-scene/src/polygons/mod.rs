@@ -1,13 +1,16 @@
-//! Convex polygons in space: which of them overlap on a plane, and which enclose a solid.
+//! Convex polygons in space: which of them overlap on a plane, which enclose a solid, and the normals of
+//! their corners.
 //!
 //! Corners are in units in which the scene is about one unit large. The constants of this module
 //! are rounding errors of numbers of that size.
 
 mod apart;
+mod normals;
 mod overlap;
 mod plane;
 mod solid;
 
+pub(crate) use normals::{mean_normals, unit_normal};
 pub(crate) use overlap::overlap;
 pub use overlap::{Outlines, fill_once};
 pub use plane::{Overlap, first_overlap};

@@ -65,6 +65,7 @@ impl Default for Mesh {
             ply: None,
             gltf: None,
             material: None,
+            smooth: None,
             scale: 1.0,
             rotate: DVec3::ZERO,
             translate: DVec3::ZERO,

@@ -79,7 +79,7 @@ pub(super) fn mesh(mesh: Mesh, node: &Node, at: &Place<'_>, problems: &mut Probl
         }
         [] => {
             // A misspelt key is reported as such.
-            let keys = ["material", "scale", "rotate", "translate"];
+            let keys = ["material", "smooth", "scale", "rotate", "translate"];
             let all = names.into_iter().chain(keys);
             let is_meant =
                 |key: &str| nearest(key, all.clone()).is_some_and(|near| names.contains(&near));

@@ -21,8 +21,33 @@ pub struct Meshes {
 /// fewer.
 pub const MOST_FACES: usize = 1 << 22;
 
-/// A file's format, its name as the scene writes it, and true if its own materials are read.
-type Key = (MeshFormat, String, bool);
+/// A file's format, its name as the scene writes it, and the parts that are read beside the shape.
+type Key = (MeshFormat, String, Wanted);
+
+/// The parts of a mesh file that are read beside its shape.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Wanted {
+    /// True if the file's materials are read.
+    pub materials: bool,
+    /// True if the normals of corners are read.
+    pub normals: bool,
+}
+
+impl Wanted {
+    /// All parts.
+    pub const ALL: Self = Self {
+        materials: true,
+        normals: true,
+    };
+
+    /// The parts that the entry `mesh` of a scene uses.
+    pub(crate) fn of_mesh(mesh: &Mesh) -> Self {
+        Self {
+            materials: mesh.material.is_none(),
+            normals: mesh.smooth.is_none(),
+        }
+    }
+}
 
 impl Default for Meshes {
     fn default() -> Self {
@@ -52,21 +77,20 @@ impl Meshes {
             FileError::new(MeshFile::NotRead { name }, "".as_ref(), FilePlace::Whole)
         };
         let (format, name) = mesh.file().ok_or_else(|| not_read(""))?;
-        let key = (format, name.to_owned(), mesh.material.is_none());
+        let key = (format, name.to_owned(), Wanted::of_mesh(mesh));
         let read = self.read.get(&key).ok_or_else(|| not_read(name))?;
         read.as_deref().map_err(FileError::clone)
     }
 
-    /// Adds the result of reading the file that a scene calls `name`, with its own materials or
-    /// without.
+    /// Adds the result of reading the `wanted` parts of the file that a scene calls `name`.
     pub fn insert(
         &mut self,
         format: MeshFormat,
         name: &str,
-        own_materials: bool,
+        wanted: Wanted,
         read: Result<FileMesh, FileError>,
     ) {
-        let key = (format, name.to_owned(), own_materials);
+        let key = (format, name.to_owned(), wanted);
         self.read.insert(key, read.map(Arc::new));
     }
 }
@@ -77,6 +101,9 @@ pub struct FileMesh {
     /// Triangles in the order of the file, each with an area and none of them twice; a polygon
     /// becomes several.
     pub faces: Vec<FileFace>,
+    /// For each face, the unit normals of its corners. Empty if the mesh is flat or if normals were not
+    /// wanted.
+    pub normals: Vec<[DVec3; 3]>,
     /// The materials of the faces; empty if they were not wanted.
     pub materials: Vec<FileMaterial>,
     /// The files that were read: the mesh file itself, then the files that it names.

@@ -387,6 +387,10 @@ record! {
     /// The name of a material for all of it; without one, the file's materials. A PLY file has
     /// none.
     pub material: Option<String> = Maybe(Text), or None;
+    /// Smooth shading. `auto`, the default: by the normals of the file, and in an OBJ file without them by
+    /// its smoothing groups (`s`). Degrees: by the mean normal of the faces around a corner that make at
+    /// most this angle with the face; 0 is flat.
+    pub smooth: Option<f64> = AutoOr(number(0.0, 180.0)), or None;
     /// The factor of its size; default 1.
     pub scale: f64 = LENGTH, or 1.0;
     /// Degrees about x, then y, then z; default none.

@@ -3,6 +3,7 @@
 //! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
 //! the origin, is treated like any other.
 
+use crate::polygons::{mean_normals, unit_normal};
 use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
@@ -11,14 +12,21 @@ use crate::syntax::{
     Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
     Structure, Triangles, nearest,
 };
-use crate::valid::{Ball, Polygon, Scatter, Surface, simple};
+use crate::valid::{Ball, Polygon, Scatter, SmoothFace, Surface, simple};
 use glam::{BVec3, DVec3};
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
 /// Minimum of twice the area over the square of the longest edge: below it, rounding decides the
 /// direction of the normal.
 const LEAST_AREA: f64 = 1e-12;
+/// Maximum sine of the angle between a corner's normal and its face's own that counts as rounding:
+/// files have normals of four decimals.
+const FLAT: f64 = 1e-3;
+/// Minimum cosine of the angle between a corner's normal and its face's own. Interpolated normals are
+/// then at least this long, and no face is shaded from behind.
+pub(super) const LEAST_COSINE: f64 = 0.25;
 /// Maximum distance of a corner of a planar quad from the plane of the others, relative to the
 /// quad's longest extent.
 const PLANAR: f64 = 1e-9;
@@ -40,6 +48,7 @@ const MOST_KEYWORDS: usize = 16;
 /// The faces of a scene's primitives and meshes.
 pub(super) struct Shapes {
     pub(super) polygons: Vec<Polygon>,
+    pub(super) smooth: Vec<SmoothFace>,
     pub(super) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(super) firsts: Vec<usize>,
@@ -62,6 +71,7 @@ pub(super) fn polygons(
         problems,
         names,
         out: vec![],
+        smooth: vec![],
         balls: vec![],
         spheres: HashSet::new(),
         files: BTreeSet::new(),
@@ -110,6 +120,7 @@ pub(super) fn polygons(
     }
     Shapes {
         polygons: build.out,
+        smooth: build.smooth,
         balls: build.balls,
         firsts,
         files: build.files.into_iter().collect(),
@@ -123,6 +134,8 @@ struct Build<'a> {
     problems: &'a mut Problems,
     names: HashMap<&'a str, u32>,
     out: Vec<Polygon>,
+    /// The polygons so far that are not flat.
+    smooth: Vec<SmoothFace>,
     balls: Vec<Ball>,
     /// Centres and radii of the spheres so far, by their bits.
     spheres: HashSet<[u64; 4]>,
@@ -286,6 +299,9 @@ impl<'a> Build<'a> {
             None => self.own_materials(file, read, &place),
             Some(_) => Vec::new(),
         };
+        let Some(normals) = self.normals(mesh, read, &path.key("smooth")) else {
+            return;
+        };
         self.out.reserve_exact(read.faces.len());
         let mut flat = Vec::new();
         let mut bare = Vec::new();
@@ -302,6 +318,13 @@ impl<'a> Build<'a> {
             } else if triangle_fault(&vertices).is_some() {
                 flat.push(index);
             } else {
+                if let Some(normals) = normals.get(index) {
+                    let turned = normals.map(|normal| transform.turn(normal));
+                    let normals = bent(&vertices, turned);
+                    let polygon = self.out.len();
+                    self.smooth
+                        .extend(normals.map(|normals| SmoothFace { polygon, normals }));
+                }
                 self.out.push(triangle(vertices, surface));
             }
         }
@@ -322,6 +345,32 @@ impl<'a> Build<'a> {
 }
 
 impl<'a> Build<'a> {
+    /// Returns the normals of the corners of a mesh's faces, in the file's frame; empty if the mesh is
+    /// flat. `None` after a problem.
+    fn normals<'m>(
+        &mut self,
+        mesh: &Mesh,
+        read: &'m FileMesh,
+        path: &Path,
+    ) -> Option<Cow<'m, [[DVec3; 3]]>> {
+        let degrees = match mesh.smooth {
+            None => return Some(Cow::Borrowed(&read.normals)),
+            Some(0.0) => return Some(Cow::Borrowed(&[])),
+            Some(degrees) => degrees,
+        };
+        // Rounding may turn faces that make exactly this angle.
+        let least = libm::cos(degrees.to_radians()) - 1e-9;
+        let triangles: Vec<[DVec3; 3]> = read.faces.iter().map(|face| face.vertices).collect();
+        match mean_normals(&triangles, |_, [a, b]| a.dot(b) >= least) {
+            Ok(normals) => Some(Cow::Owned(normals)),
+            Err(count) => {
+                self.problems
+                    .add(path.clone(), Unplaced::ManyAround { count });
+                None
+            }
+        }
+    }
+
     /// Returns the surfaces of the materials of a mesh's file, as indices into `surfaces`. Those
     /// that materials of the scene replace are the scene's.
     fn own_materials(
@@ -396,6 +445,33 @@ fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
         corners: 3,
         surface,
     }
+}
+
+/// Returns the normals of a triangle's corners as its shading uses them: on the side of its front, and
+/// within 75.5 degrees of its own normal. `None` if all are its own up to rounding: it is flat.
+fn bent(vertices: &[DVec3; 3], normals: [DVec3; 3]) -> Option<[DVec3; 3]> {
+    let own = unit_normal(vertices);
+    if normals
+        .iter()
+        .all(|normal| normal.cross(own).length() <= FLAT)
+    {
+        return None;
+    }
+    Some(normals.map(|normal| {
+        let front = if normal.dot(own) < 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        let across = front - own * front.dot(own);
+        if front.dot(own) >= LEAST_COSINE {
+            front
+        } else {
+            // `across` is longer than 0: the angle is at least 75 degrees.
+            let sine = (1.0 - LEAST_COSINE * LEAST_COSINE).sqrt();
+            own * LEAST_COSINE + across.normalize_or_zero() * sine
+        }
+    }))
 }
 
 fn coincident(vertices: &[DVec3]) -> Option<Fault> {
@@ -491,6 +567,12 @@ impl Transform {
         };
         let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn(axis) * scale);
         Self { columns, translate }
+    }
+
+    /// Turns a unit normal. The scale is above 0.
+    fn turn(&self, normal: DVec3) -> DVec3 {
+        let [x, y, z] = self.columns;
+        (x * normal.x + y * normal.y + z * normal.z).normalize_or_zero()
     }
 
     fn apply(&self, v: DVec3) -> DVec3 {

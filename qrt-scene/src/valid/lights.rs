@@ -82,7 +82,15 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
 
 /// The faces of a scene with their surfaces.
 fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
-    let polygons = valid.polygons.iter().map(|p| LitFace::Polygon(p.outline()));
+    let mut smooth = valid.smooth.iter().map(|face| face.polygon).peekable();
+    let polygons = valid.polygons.iter().enumerate();
+    let polygons =
+        polygons.map(
+            move |(number, polygon)| match smooth.next_if(|&smooth| smooth == number) {
+                Some(_) => LitFace::Smooth(polygon.outline()),
+                None => LitFace::Polygon(polygon.outline()),
+            },
+        );
     let balls = valid.balls.iter().map(|ball| LitFace::Sphere {
         centre: ball.centre,
         radius: ball.radius,
@@ -113,6 +121,9 @@ fn cut_lamps(valid: &mut ValidScene) {
         cut.extend([half([a, b, c, c]), half([a, c, d, d])]);
     }
     moved.push(cut.len());
+    for face in &mut valid.smooth {
+        face.polygon = moved[face.polygon];
+    }
     for first in &mut valid.firsts {
         *first = moved[*first];
     }

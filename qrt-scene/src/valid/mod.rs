@@ -42,6 +42,7 @@ pub struct ValidScene {
     pub(crate) scene: Scene,
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
+    pub(crate) smooth: Vec<SmoothFace>,
     pub(crate) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(crate) firsts: Vec<usize>,
@@ -145,6 +146,19 @@ pub struct Polygon {
     pub surface: u32,
 }
 
+/// Minimum length of the interpolated normals of a [`SmoothFace`].
+pub const LEAST_NORMAL: f64 = geometry::LEAST_COSINE;
+
+/// A triangle that is shaded by normals which are interpolated between its corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmoothFace {
+    /// The triangle, as an index into [`ValidScene::polygons`].
+    pub polygon: usize,
+    /// The unit normals at its corners. Their dot products with the normal of the triangle's front are at
+    /// least [`LEAST_NORMAL`].
+    pub normals: [DVec3; 3],
+}
+
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
@@ -201,6 +215,10 @@ impl ValidScene {
     /// All polygons of the scene, those of meshes included.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
+    }
+    /// The polygons that are not flat, in the order of [`ValidScene::polygons`].
+    pub fn smooth_faces(&self) -> &[SmoothFace] {
+        &self.smooth
     }
     /// All spheres of the scene.
     pub fn balls(&self) -> &[Ball] {
@@ -261,7 +279,7 @@ impl ValidScene {
     }
 
     /// Returns the 128-bit FNV-1a hash of the scene's canonical text (see [`Scene::fingerprint`]),
-    /// of the corners of all polygons, bit for bit, and of the surfaces that mesh files add. It
+    /// of the corners of all polygons and the normals there, bit for bit, and of the surfaces that mesh files add. It
     /// changes with everything that changes the picture, in the scene or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
@@ -297,6 +315,12 @@ impl ValidScene {
                 .and(&[polygon.corners])
                 .and(&polygon.surface.to_le_bytes());
             for value in polygon.vertices.iter().flat_map(DVec3::to_array) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        for face in &self.smooth {
+            print = print.and(&(face.polygon as u64).to_le_bytes());
+            for value in face.normals.iter().flat_map(DVec3::to_array) {
                 print = print.and(&value.to_bits().to_le_bytes());
             }
         }
@@ -345,6 +369,7 @@ pub(crate) fn check(
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems, &mut warnings);
     let geometry::Shapes {
         polygons,
+        smooth,
         balls,
         firsts,
         files,
@@ -353,6 +378,7 @@ pub(crate) fn check(
         scene,
         materials,
         polygons,
+        smooth,
         balls,
         firsts,
         files,

@@ -1,5 +1,6 @@
 //! The vertex at which a path scatters, its local frame, and the choice among surfaces.
 
+use crate::tracer::smooth::Bent;
 use crate::tracer::vector::{self, Vector};
 use crate::tracer::{Arith, TracerPart};
 use std::ops::Range;
@@ -11,8 +12,10 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) tangent: Vector<A>,
     pub(crate) bitangent: Vector<A>,
     pub(crate) normal: Vector<A>,
-    /// The dot product of the arriving direction and the surface's normal.
+    /// The dot product of the arriving direction and `normal`.
     pub(crate) cos_theta: A::Real,
+    /// The hit as one on a smooth face, in a scene that has smooth faces.
+    pub(crate) bent: Option<Bent<A>>,
     /// True if the viewer sees the front of the surface.
     pub(crate) front: A::Bool,
     pub(crate) surface: A::Index,
@@ -28,6 +31,13 @@ impl<A: Arith> Vertex<A> {
     pub(crate) fn stand(&mut self, &[tx, ty, tz, bx, by, bz, ..]: &[A::Real; 9]) {
         self.tangent = [tx, ty, tz];
         self.bitangent = [bx, by, bz];
+    }
+
+    /// True unless `direction` leaves a smooth face on one side, and its normal on the other.
+    #[inline(always)]
+    pub(crate) fn stays(&self, cx: &mut A, direction: &Vector<A>) -> Option<A::Bool> {
+        let bent = self.bent.as_ref()?;
+        Some(bent.stays(cx, self, direction))
     }
 }
 

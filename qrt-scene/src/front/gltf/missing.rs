@@ -1,7 +1,7 @@
 //! The error of a build without the feature `gltf`.
 
 use crate::front::meshes::{Faces, Library};
-use crate::scene::meshes::{FileError, FileMesh, FilePlace};
+use crate::scene::meshes::{FileError, FileMesh, FilePlace, Wanted};
 use crate::syntax::MeshFile;
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use std::path::Path;
 pub(in crate::front) fn parse(
     path: &Path,
     _: &[u8],
-    _: bool,
+    _: Wanted,
     _: Faces,
     _: Library<'_>,
 ) -> Result<FileMesh, FileError> {

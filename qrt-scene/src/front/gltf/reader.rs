@@ -3,15 +3,15 @@
 mod container;
 mod material;
 
-use crate::front::meshes::{Collector, Faces, Library};
-use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace};
+use crate::front::meshes::{Collector, Faces, Library, Normals};
+use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace, Wanted};
 use crate::syntax::MeshFile;
 use ::gltf::accessor::{DataType, Dimensions};
 use ::gltf::buffer::Source;
 use ::gltf::mesh::Mode;
 use ::gltf::scene::Transform;
 use ::gltf::{Accessor, Document, Mesh, Node, Primitive, Semantic};
-use glam::{DMat4, DQuat, DVec3, Vec3};
+use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
 use std::collections::{HashMap, HashSet};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use std::rc::Rc;
 pub(in crate::front) fn parse(
     path: &Path,
     bytes: &[u8],
-    wants_materials: bool,
+    wanted: Wanted,
     faces: Faces,
     library: Library<'_>,
 ) -> Result<FileMesh, FileError> {
@@ -30,7 +30,7 @@ pub(in crate::front) fn parse(
     let document = container::document(path, text)?;
     let mut reader = Reader {
         path,
-        wants_materials,
+        wanted,
         faces,
         library,
         binary,
@@ -58,15 +58,18 @@ pub(in crate::front) fn parse(
         ..
     } = reader;
     let place = |part: u32| FilePlace::Part(part_name(parts[part as usize]));
-    let (faces, left_out) = collector.finish(path, place)?;
-    notes.extend(left_out);
+    let mut read = collector.finish(path, place)?;
+    notes.append(&mut read.notes);
     Ok(FileMesh {
-        faces,
         materials,
         files,
         notes,
+        ..read
     })
 }
+
+/// The type of positions and normals.
+const FLOATS: (DataType, Dimensions) = (DataType::F32, Dimensions::Vec3);
 
 /// The indices of a mesh and of a primitive in it.
 type Part = (usize, usize);
@@ -83,7 +86,7 @@ fn mesh_name(mesh: &Mesh<'_>) -> String {
 
 struct Reader<'a> {
     path: &'a Path,
-    wants_materials: bool,
+    wanted: Wanted,
     faces: Faces,
     library: Library<'a>,
     /// The binary data in the file itself.
@@ -197,7 +200,7 @@ impl<'a> Reader<'a> {
         let fail = |what| FileError::new(what, self.path, FilePlace::Part(part_name(part)));
         let positions = primitive.get(&Semantic::Positions);
         let positions = positions.ok_or_else(|| fail(MeshFile::GltfNoPositions))?;
-        if (positions.data_type(), positions.dimensions()) != (DataType::F32, Dimensions::Vec3) {
+        if (positions.data_type(), positions.dimensions()) != FLOATS {
             return Err(fail(MeshFile::GltfType {
                 attribute: "POSITION",
             }));
@@ -216,6 +219,16 @@ impl<'a> Reader<'a> {
             self.note(MeshFile::GltfMorph, || part_name(part));
         }
         let vertices = self.data(&positions, part)?;
+        let normals = primitive.get(&Semantic::Normals);
+        let normals = match normals.filter(|_| self.wanted.normals) {
+            Some(normals) if (normals.data_type(), normals.dimensions()) != FLOATS => {
+                return Err(fail(MeshFile::GltfType {
+                    attribute: "NORMAL",
+                }));
+            }
+            Some(normals) => Some(self.data(&normals, part)?),
+            None => None,
+        };
         let indices = match indices {
             Some(indices) => Some(self.data(&indices, part)?),
             None => None,
@@ -233,7 +246,7 @@ impl<'a> Reader<'a> {
         if triangles == 0 {
             return Ok(());
         }
-        let material = if self.wants_materials {
+        let material = if self.wanted.materials {
             if primitive.get(&Semantic::Colors(0)).is_some() {
                 self.coloured.insert(mesh.index());
                 self.first_coloured
@@ -247,6 +260,8 @@ impl<'a> Reader<'a> {
         self.parts.push(part);
         // A transform that mirrors turns the faces around.
         let is_mirrored = transform.determinant() < 0.0;
+        // Normals are scaled inversely; a sign does not matter.
+        let turn = DMat3::from_mat4(*transform).inverse().transpose();
         for triangle in 0..triangles {
             let mut corners = match mode {
                 Mode::Triangles => [0, 1, 2].map(|corner| 3 * triangle + corner),
@@ -257,22 +272,35 @@ impl<'a> Reader<'a> {
                 corners.swap(1, 2);
             }
             let mut face = [DVec3::ZERO; 3];
-            for (vertex, corner) in face.iter_mut().zip(corners) {
+            let mut of_corners = [DVec3::ZERO; 3];
+            for ((vertex, normal), corner) in face.iter_mut().zip(&mut of_corners).zip(corners) {
                 let index = indices.as_ref().map_or(corner, |data| data.index(corner));
                 let found = vertices.point(index);
                 let count = vertices.count;
-                let index = index as u32;
                 let found = found.ok_or_else(|| {
+                    let index = index as u32;
                     self.error(MeshFile::PlyIndex { index, count }, part_name(part))
                 })?;
                 *vertex = transform.transform_point3(found);
+                if let Some(given) = normals.as_ref().and_then(|normals| normals.point(index)) {
+                    let turned = turn * given;
+                    *normal = if turned.is_finite() {
+                        turned
+                    } else {
+                        DVec3::ZERO
+                    };
+                }
                 if let Some(off) = vertex.to_array().into_iter().find(|x| !x.is_finite()) {
                     let (word, is_library) = (off.to_string(), false);
                     let what = MeshFile::NotFinite { word, is_library };
                     return Err(self.error(what, part_name(part)));
                 }
             }
-            let added = self.collector.add(&face, material, origin);
+            let of_corners = match normals {
+                None => Normals::Flat,
+                Some(_) => Normals::OfCorners(&of_corners),
+            };
+            let added = self.collector.add(&face, of_corners, material, origin);
             added.map_err(|what| self.error(what, part_name(part)))?;
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::front::meshes::Faces;
-use crate::scene::meshes::{FileError, FileMesh};
+use crate::scene::meshes::{FileError, FileMesh, Wanted};
 use crate::scene::{Dielectric, Emitter, Ggx, Lambertian, Material, Mirror};
 use crate::syntax::MeshFile;
 use glam::DVec3;
@@ -71,14 +71,29 @@ fn read_with(bytes: &[u8], wants_materials: bool) -> Result<FileMesh, FileError>
         Err(MeshFile::Missing { file, is_library })
     };
     let path = Path::new("dir/m.gltf");
-    parse(path, bytes, wants_materials, Faces::default(), &mut library)
+    parse(
+        path,
+        bytes,
+        Wanted {
+            materials: wants_materials,
+            normals: true,
+        },
+        Faces::default(),
+        &mut library,
+    )
 }
 
 /// Reads a file of which at most `most` triangles are allowed.
 fn read_at_most(most: usize, json: &str) -> Result<FileMesh, FileError> {
     let mut library = |_: &Path| Ok(binary().into());
     let path = Path::new("dir/m.gltf");
-    parse(path, json.as_bytes(), true, Faces::new(most), &mut library)
+    parse(
+        path,
+        json.as_bytes(),
+        Wanted::ALL,
+        Faces::new(most),
+        &mut library,
+    )
 }
 
 fn read(json: &str) -> Result<FileMesh, FileError> {
@@ -531,4 +546,29 @@ proptest! {
             prop_assert!(mesh.faces.iter().all(|face| face.material < Some(mesh.materials.len())));
         }
     }
+}
+
+#[test]
+fn normals_turn_with_their_node() {
+    let normals = r#""POSITION": 0, "NORMAL": 0"#;
+    assert!(read(&json(&[])).unwrap().normals.is_empty());
+    // The positions as normals: the first is 0, which stands for the face's own.
+    let mesh = read(&json(&[(r#""POSITION": 0"#, normals)])).unwrap();
+    let own = crate::polygons::unit_normal(&mesh.faces[0].vertices);
+    assert_eq!(mesh.normals[0], [own, DVec3::Y, DVec3::X]);
+    // Scaled along x, a normal across both axes turns away from it; a mirror turns the face around.
+    let scaled = [
+        (r#""POSITION": 0"#, normals),
+        (r#""mesh": 0 }"#, r#""mesh": 0, "scale": [-4, 1, 1] }"#),
+    ];
+    let mesh = read(&json(&scaled)).unwrap();
+    assert_eq!(mesh.normals[0][1..], [-DVec3::X, DVec3::Y]);
+    let wrong = [(r#""POSITION": 0"#, r#""POSITION": 0, "NORMAL": 1"#)];
+    let error = read(&json(&wrong)).unwrap_err();
+    assert_eq!(
+        *error.what,
+        MeshFile::GltfType {
+            attribute: "NORMAL"
+        }
+    );
 }

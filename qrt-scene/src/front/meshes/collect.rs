@@ -1,7 +1,9 @@
-//! Collects the triangles of a mesh, and leaves out those without area and copies.
+//! Collects the triangles of a mesh and the normals of their corners, and leaves out triangles without
+//! area and copies.
 
 use super::polygon;
-use crate::scene::meshes::{FileError, FileFace, FilePlace};
+use crate::polygons::{mean_normals, unit_normal};
+use crate::scene::meshes::{FileError, FileFace, FileMesh, FilePlace};
 use crate::syntax::MeshFile;
 use crate::valid::triangle_fault;
 use glam::DVec3;
@@ -11,6 +13,8 @@ use std::path::Path;
 #[derive(Default)]
 pub(in crate::front) struct Collector {
     faces: Vec<FileFace>,
+    /// For each triangle, its shading. Shorter than `faces` if the last ones are flat.
+    shading: Vec<Shading>,
     /// For each triangle, the number of its face in the file.
     origins: Vec<u32>,
     flat: LeftOut,
@@ -32,6 +36,26 @@ impl LeftOut {
     }
 }
 
+/// The normals of a face's corners in its file.
+#[derive(Clone, Copy)]
+pub(in crate::front) enum Normals<'a> {
+    /// The face's own.
+    Flat,
+    /// By corner, of any length; 0 stands for the face's own. The side of the face is not theirs:
+    /// [`crate::valid`] turns normals of the back around.
+    OfCorners(&'a [DVec3]),
+    /// The mean of the faces that share the corner and have the same smoothing group.
+    OfGroup(u32),
+}
+
+/// The shading of a triangle.
+#[derive(Clone, Copy, PartialEq)]
+enum Shading {
+    Flat,
+    OfCorners([DVec3; 3]),
+    OfGroup(u32),
+}
+
 impl Collector {
     /// Adds face number `origin` of the file, cut into triangles.
     ///
@@ -40,6 +64,7 @@ impl Collector {
     pub(in crate::front) fn add(
         &mut self,
         corners: &[DVec3],
+        normals: Normals<'_>,
         material: Option<usize>,
         origin: u32,
     ) -> Result<(), MeshFile> {
@@ -50,10 +75,22 @@ impl Collector {
             }
             triangles => triangles?,
         };
-        for vertices in triangles {
+        for triangle in triangles {
+            let vertices = triangle.map(|corner| corners[corner]);
             if triangle_fault(&vertices).is_some() {
                 self.flat.add(origin);
                 continue;
+            }
+            let shading = match normals {
+                Normals::Flat => Shading::Flat,
+                Normals::OfCorners(normals) => {
+                    Shading::OfCorners(triangle.map(|corner| normals[corner]))
+                }
+                Normals::OfGroup(group) => Shading::OfGroup(group),
+            };
+            if shading != Shading::Flat {
+                self.shading.resize(self.faces.len(), Shading::Flat);
+                self.shading.push(shading);
             }
             self.faces.push(FileFace { vertices, material });
             self.origins.push(origin);
@@ -61,16 +98,16 @@ impl Collector {
         Ok(())
     }
 
-    /// Returns the triangles without copies, and notes about those that are left out. `place` gives
-    /// the place of a face in the file at `path`.
+    /// Returns the mesh of these triangles without copies, with notes about those that are left out.
+    /// `place` gives the place of a face in the file at `path`.
     ///
     /// # Errors
-    /// No triangle is left.
+    /// No triangle is left, or very many meet at one corner whose normal is their mean.
     pub(in crate::front) fn finish(
         mut self,
         path: &Path,
         place: impl Fn(u32) -> FilePlace,
-    ) -> Result<(Vec<FileFace>, Vec<FileError>), FileError> {
+    ) -> Result<FileMesh, FileError> {
         let fail = |what, place| FileError::new(what, path, place);
         if self.faces.is_empty() {
             return Err(match self.flat.count {
@@ -81,17 +118,62 @@ impl Collector {
         let mut copies = LeftOut::default();
         let is_copy = copied(&self.faces);
         let mut triangles = self.origins.iter().zip(is_copy);
+        let shading = std::mem::take(&mut self.shading);
+        let mut shading = shading.into_iter();
+        let mut kept = Vec::new();
         self.faces.retain(|_| {
+            let shading = shading.next();
             let copy = triangles.next().filter(|(_, is_copy)| *is_copy);
-            copy.inspect(|(origin, _)| copies.add(**origin)).is_none()
+            let is_kept = copy.inspect(|(origin, _)| copies.add(**origin)).is_none();
+            kept.extend(shading.filter(|_| is_kept));
+            is_kept
         });
+        let normals = corner_normals(&self.faces, &kept);
+        let normals =
+            normals.map_err(|count| fail(MeshFile::ManyAround { count }, FilePlace::Whole))?;
         let note = |left: LeftOut, what: fn(usize) -> MeshFile| {
             (left.count > 0).then(|| fail(what(left.count), place(left.first)))
         };
         let flat = note(self.flat, |count| MeshFile::FlatLeftOut { count });
         let copies = note(copies, |count| MeshFile::CopiesLeftOut { count });
-        Ok((self.faces, flat.into_iter().chain(copies).collect()))
+        Ok(FileMesh {
+            faces: self.faces,
+            normals,
+            materials: Vec::new(),
+            files: vec![path.to_owned()],
+            notes: flat.into_iter().chain(copies).collect(),
+        })
     }
+}
+
+/// Returns the unit normals of the corners of all `faces`; none if all faces are flat. Faces after the
+/// last `shading` are flat.
+///
+/// # Errors
+/// The number of triangles at one corner, if they are too many for a mean.
+fn corner_normals(faces: &[FileFace], shading: &[Shading]) -> Result<Vec<[DVec3; 3]>, usize> {
+    if shading.is_empty() {
+        return Ok(Vec::new());
+    }
+    let of = |face: usize| shading.get(face).copied().unwrap_or(Shading::Flat);
+    let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| face.vertices).collect();
+    let is_grouped = |shading: &Shading| matches!(shading, Shading::OfGroup(_));
+    let means = if shading.iter().any(is_grouped) {
+        mean_normals(&triangles, |[face, other], _| {
+            is_grouped(&of(face)) && of(face) == of(other)
+        })?
+    } else {
+        Vec::new()
+    };
+    let normals = triangles.iter().enumerate().map(|(face, triangle)| {
+        let own = unit_normal(triangle);
+        match of(face) {
+            Shading::Flat => [own; 3],
+            Shading::OfCorners(normals) => normals.map(|n| n.try_normalize().unwrap_or(own)),
+            Shading::OfGroup(_) => means[face],
+        }
+    });
+    Ok(normals.collect())
 }
 
 /// Marks each triangle that has the corners of an earlier one, in the same cyclic order.
@@ -154,9 +236,10 @@ mod tests {
         .iter()
         .enumerate()
         {
-            collector.add(face, Some(origin), origin as u32).unwrap();
+            let added = collector.add(face, Normals::Flat, Some(origin), origin as u32);
+            added.unwrap();
         }
-        let (faces, notes) = collector.finish("m".as_ref(), place).unwrap();
+        let FileMesh { faces, notes, .. } = collector.finish("m".as_ref(), place).unwrap();
         let kept: Vec<_> = faces.iter().filter_map(|face| face.material).collect();
         assert_eq!(kept, [0, 2, 4]);
         assert_eq!(notes.len(), 1);
@@ -172,7 +255,7 @@ mod tests {
         // The second is thinner than the checks of a scene allow.
         let thin = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 3e-13, 0.0)];
         for face in [[DVec3::ZERO, DVec3::X, DVec3::X], thin] {
-            collector.add(&face, None, 6).unwrap();
+            collector.add(&face, Normals::Flat, None, 6).unwrap();
         }
         let refused = collector.finish("m".as_ref(), place).unwrap_err();
         assert_eq!(

@@ -2,7 +2,6 @@
 
 use crate::syntax::MeshFile;
 use glam::{DVec2, DVec3};
-use std::borrow::Cow;
 
 /// Maximum number of corners of a face that is not convex: ear clipping takes up to their cube.
 const MAX_CONCAVE: usize = 256;
@@ -10,13 +9,22 @@ const MAX_CONCAVE: usize = 256;
 /// Maximum of twice an area, relative to the square of the longest edge, that counts as rounding.
 const NO_AREA: f64 = 1e-14;
 
-/// Returns the triangles of a polygon of three or more corners, wound as it is; each has an area. A
-/// corner that repeats the one before it is dropped.
-pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> {
-    let corners = &distinct(corners)[..];
+/// Returns the triangles of a polygon of three or more corners, wound as it is, as indices into
+/// `corners`; each has an area. A corner that repeats the one before it is dropped.
+pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[usize; 3]>, MeshFile> {
+    let Some(kept) = distinct(corners) else {
+        return triangles_of_distinct(corners);
+    };
+    let distinct: Vec<DVec3> = kept.iter().map(|&corner| corners[corner]).collect();
+    let triangles = triangles_of_distinct(&distinct)?.into_iter();
+    Ok(triangles.map(|t| t.map(|corner| kept[corner])).collect())
+}
+
+/// Returns the triangles of a polygon in which no corner repeats the one before it.
+fn triangles_of_distinct(corners: &[DVec3]) -> Result<Vec<[usize; 3]>, MeshFile> {
     if let [a, b, c] = *corners {
         return if has_area([a, b, c])? {
-            Ok(vec![[a, b, c]])
+            Ok(vec![[0, 1, 2]])
         } else {
             Err(MeshFile::NoArea)
         };
@@ -28,29 +36,29 @@ pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[DVec3; 3]>, MeshFile> 
     let fan: Vec<[usize; 3]> = (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
     let place = |triangle: &[usize; 3]| triangle.map(|i| corners[i]);
     let convex = is_convex(&flat) && fan.iter().all(|t| matches!(has_area(place(t)), Ok(true)));
-    let indices = if convex {
-        fan
+    if convex {
+        Ok(fan)
     } else if corners.len() <= MAX_CONCAVE {
-        ears(&flat)?
+        ears(&flat)
     } else {
-        return Err(MeshFile::ManyCorners { most: MAX_CONCAVE });
-    };
-    Ok(indices.iter().map(place).collect())
+        Err(MeshFile::ManyCorners { most: MAX_CONCAVE })
+    }
 }
 
-/// Returns the corners of an outline without consecutive duplicates: edges without length do not
-/// change it.
-fn distinct(corners: &[DVec3]) -> Cow<'_, [DVec3]> {
+/// Returns the corners of an outline that do not repeat the one before them: edges without length do
+/// not change it. `None` if these are all corners.
+fn distinct(corners: &[DVec3]) -> Option<Vec<usize>> {
     let closes = corners.first() == corners.last();
     if !(closes || corners.windows(2).any(|pair| pair[0] == pair[1])) {
-        return Cow::Borrowed(corners);
+        return None;
     }
-    let mut kept = corners.to_vec();
-    kept.dedup();
-    if kept.len() > 1 && kept.first() == kept.last() {
+    let mut kept: Vec<usize> = (0..corners.len()).collect();
+    kept.dedup_by_key(|corner| corners[*corner].to_array());
+    let at = |corner: Option<&usize>| corner.map(|&corner| corners[corner]);
+    if kept.len() > 1 && at(kept.first()) == at(kept.last()) {
         kept.pop();
     }
-    Cow::Owned(kept)
+    Some(kept)
 }
 
 fn has_area([a, b, c]: [DVec3; 3]) -> Result<bool, MeshFile> {

@@ -1,7 +1,7 @@
 //! Checks an OBJ file, statement by statement, as `tobj` reads it.
 
 use super::{Faces, FileError, name, numbers, split, statements, tokens};
-use crate::scene::meshes::FilePlace;
+use crate::scene::meshes::{FilePlace, Wanted};
 use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
@@ -9,10 +9,10 @@ use std::collections::VecDeque;
 use std::io::{self, Read};
 use std::path::Path;
 
-const READ: &str = "v vt vn f mtllib usemtl";
+const READ: &str = "v vt vn f s mtllib usemtl";
 /// Statements that have no part in a mesh's shape.
 const IGNORED: &str =
-    "o g s mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
+    "o g mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
 /// Statements whose shapes are left out: lines, points, curves and curved surfaces.
 const SHAPELESS: &str =
     "l p cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
@@ -24,7 +24,7 @@ const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 pub(super) struct Scanner<'a> {
     path: &'a Path,
     statements: Box<dyn Iterator<Item = (usize, Cow<'a, str>)> + 'a>,
-    wants_materials: bool,
+    wanted: Wanted,
     /// Maximum number of triangles; three times that number is the maximum of vertices.
     most: Faces,
     /// The triangles of the faces so far.
@@ -37,14 +37,38 @@ pub(super) struct Scanner<'a> {
     pending: VecDeque<u8>,
     /// The error: the reader of this stream sees only that there is one.
     pub(super) fault: Option<FileError>,
-    /// The line of each face, and the index in `uses` of its material.
-    pub(super) faces: Vec<(usize, Option<usize>)>,
+    pub(super) faces: Vec<Face>,
+    /// The normals so far; 0 for one that is not three finite numbers.
+    pub(super) normals: Vec<DVec3>,
+    /// By corner of the faces that name normals, in order: the index of its normal in `normals`.
+    pub(super) corner_normals: Vec<Option<usize>>,
+    /// The smoothing group of the next faces; 0 for none.
+    group: u32,
     /// The first statement whose shape is left out, and its line.
     pub(super) shapeless: Option<(String, usize)>,
     /// Names after `usemtl`, with their lines.
     pub(super) uses: Vec<(String, usize)>,
     /// Names after `mtllib`, with their lines.
     pub(super) libraries: Vec<(String, usize)>,
+}
+
+/// A face of the file.
+pub(super) struct Face {
+    /// Its line.
+    pub(super) line: usize,
+    /// The index in [`Scanner::uses`] of its material.
+    pub(super) material: Option<usize>,
+    pub(super) normals: OfFace,
+}
+
+/// The normals that a face asks for.
+pub(super) enum OfFace {
+    /// None, or they were not wanted.
+    None,
+    /// Those in [`Scanner::corner_normals`].
+    Corners,
+    /// The means over its smoothing group.
+    Group(u32),
 }
 
 impl Read for Scanner<'_> {
@@ -67,11 +91,11 @@ impl Read for Scanner<'_> {
 }
 
 impl<'a> Scanner<'a> {
-    pub(super) fn new(path: &'a Path, text: &'a str, wants_materials: bool, most: Faces) -> Self {
+    pub(super) fn new(path: &'a Path, text: &'a str, wanted: Wanted, most: Faces) -> Self {
         Self {
             path,
             statements: Box::new(statements(text)),
-            wants_materials,
+            wanted,
             most,
             triangles: 0,
             counts: [0; 3],
@@ -79,6 +103,9 @@ impl<'a> Scanner<'a> {
             pending: VecDeque::new(),
             fault: None,
             faces: Vec::new(),
+            normals: Vec::new(),
+            corner_normals: Vec::new(),
+            group: 0,
             shapeless: None,
             uses: Vec::new(),
             libraries: Vec::new(),
@@ -92,9 +119,10 @@ impl<'a> Scanner<'a> {
             "v" => self.vertex(rest)?,
             // No picture depends on their numbers.
             "vt" => self.counts[1] += 1,
-            "vn" => self.counts[2] += 1,
+            "vn" => self.normal(rest),
+            "s" => self.group = group(rest),
             "f" | "fo" => self.face(line, rest)?,
-            "mtllib" | "usemtl" if !self.wants_materials => {}
+            "mtllib" | "usemtl" if !self.wanted.materials => {}
             "mtllib" => {
                 let name = name(keyword, rest, MeshFile::NamelessLibrary)?;
                 self.libraries.push((name, line));
@@ -155,7 +183,7 @@ impl<'a> Scanner<'a> {
             return Err(MeshFile::FewCorners { count });
         }
         let material = self.uses.len().checked_sub(1);
-        if self.wants_materials && material.is_none() {
+        if self.wanted.materials && material.is_none() {
             return Err(MeshFile::NoUse);
         }
         self.triangles += count - 2;
@@ -163,26 +191,57 @@ impl<'a> Scanner<'a> {
             let most = self.most.most;
             return Err(MeshFile::ManyTriangles { most });
         }
+        let first = self.corner_normals.len();
         for corner in tokens(rest) {
-            self.corner(line, corner)?;
+            let normal = self.corner(line, corner)?;
+            if self.wanted.normals {
+                self.corner_normals.push(normal);
+            }
         }
         self.hand_on("f", tokens(rest));
-        self.faces.push((line, material));
+        let named = self.corner_normals[first..].iter().any(Option::is_some);
+        if !named {
+            self.corner_normals.truncate(first);
+        }
+        let normals = match self.group {
+            _ if named => OfFace::Corners,
+            group if group > 0 && self.wanted.normals => OfFace::Group(group),
+            _ => OfFace::None,
+        };
+        self.faces.push(Face {
+            line,
+            material,
+            normals,
+        });
         Ok(())
     }
 
-    /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices from 1, or backwards from -1.
-    fn corner(&mut self, line: usize, corner: &str) -> Result<(), MeshFile> {
-        for (kind, part) in corner.split('/').enumerate() {
-            if part.is_empty() && (1..3).contains(&kind) {
+    /// Reads `vn x y z`. Numbers that are not finite are no error: the face's own normal replaces them.
+    fn normal(&mut self, rest: &str) {
+        self.counts[2] += 1;
+        if self.wanted.normals {
+            let normal = match numbers(rest, 3, false).as_deref() {
+                Ok(&[x, y, z]) => DVec3::new(x, y, z),
+                _ => DVec3::ZERO,
+            };
+            self.normals.push(normal);
+        }
+    }
+
+    /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices from 1, or backwards from -1. Returns the
+    /// index of the normal, from 0.
+    fn corner(&mut self, line: usize, corner: &str) -> Result<Option<usize>, MeshFile> {
+        let mut normal = None;
+        for (number, part) in corner.split('/').enumerate() {
+            if part.is_empty() && (1..3).contains(&number) {
                 continue;
             }
-            let Some(index) = part.parse::<i64>().ok().filter(|_| kind < 3) else {
+            let Some(index) = part.parse::<i64>().ok().filter(|_| number < 3) else {
                 let corner = corner.to_owned();
                 return Err(MeshFile::NotACorner { corner });
             };
-            let (before, greatest) = (self.counts[kind], &mut self.greatest[kind]);
-            let kind = KINDS[kind];
+            let (before, greatest) = (self.counts[number], &mut self.greatest[number]);
+            let kind = KINDS[number];
             if index == 0 {
                 return Err(MeshFile::NoZeroth { kind });
             }
@@ -196,8 +255,12 @@ impl<'a> Scanner<'a> {
             if index > greatest.0 {
                 *greatest = (index, line);
             }
+            if number == 2 {
+                let from_start = if index < 0 { before + index } else { index - 1 };
+                normal = usize::try_from(from_start).ok();
+            }
         }
-        Ok(())
+        Ok(normal)
     }
 
     /// Makes the checks that are possible only at the end.
@@ -218,4 +281,10 @@ impl<'a> Scanner<'a> {
         }
         Ok(())
     }
+}
+
+/// The number of a smoothing group; 0 for `off` and for anything that is no number.
+fn group(rest: &str) -> u32 {
+    let first = tokens(rest).next();
+    first.and_then(|word| word.parse().ok()).unwrap_or(0)
 }

@@ -2,6 +2,7 @@
 
 mod lines;
 mod materials;
+mod normals;
 
 use super::*;
 use crate::front::load_all;
@@ -25,7 +26,10 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<FileMesh, FileError> 
     parse(
         Path::new("dir/mesh.obj"),
         text.as_bytes(),
-        !files.is_empty(),
+        Wanted {
+            materials: !files.is_empty(),
+            normals: true,
+        },
         Faces::default(),
         &mut library,
     )
@@ -364,10 +368,10 @@ fn files_are_looked_up_beside_the_mesh() {
     let text = |library: &str| TWO.replace("my colours.mtl", library);
     std::fs::write(&obj, text("../colours.mtl")).unwrap();
     std::fs::write(dir.join("colours.mtl"), COLOURS).unwrap();
-    refused(load(&obj, true), "QRT0319", Some(4), "is outside");
+    refused(load(&obj, Wanted::ALL), "QRT0319", Some(4), "is outside");
     std::fs::write(&obj, text("more/colours.mtl")).unwrap();
     refused(
-        load(&obj, true),
+        load(&obj, Wanted::ALL),
         "QRT0334",
         Some(4),
         "there is no such file",
@@ -375,12 +379,17 @@ fn files_are_looked_up_beside_the_mesh() {
     std::fs::create_dir(dir.join("deep/more")).unwrap();
     std::fs::write(dir.join("deep/more/colours.mtl"), COLOURS).unwrap();
     assert_eq!(
-        load(&obj, true).unwrap().materials[1].label,
+        load(&obj, Wanted::ALL).unwrap().materials[1].label,
         "more/colours.mtl:lamp"
     );
-    refused(load(&dir, false), "QRT0320", None, "not a regular file");
     refused(
-        load(&dir.join("none.obj"), false),
+        load(&dir, Wanted::default()),
+        "QRT0320",
+        None,
+        "not a regular file",
+    );
+    refused(
+        load(&dir.join("none.obj"), Wanted::default()),
         "QRT0320",
         None,
         "there is no such file",
@@ -388,8 +397,8 @@ fn files_are_looked_up_beside_the_mesh() {
     // Bytes that are not UTF-8 do no harm in a comment, or in a name that is not wanted.
     let latin = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9\nf 1 2 3\n";
     std::fs::write(&obj, latin).unwrap();
-    assert_eq!(load(&obj, false).unwrap().faces.len(), 1);
-    refused(load(&obj, true), "QRT0322", Some(5), "not UTF-8");
+    assert_eq!(load(&obj, Wanted::default()).unwrap().faces.len(), 1);
+    refused(load(&obj, Wanted::ALL), "QRT0322", Some(5), "not UTF-8");
     std::fs::remove_dir_all(&dir).unwrap();
 }
 
@@ -397,7 +406,7 @@ fn files_are_looked_up_beside_the_mesh() {
 #[test]
 fn an_endless_file_is_refused() {
     refused(
-        load(Path::new("/dev/zero"), false),
+        load(Path::new("/dev/zero"), Wanted::default()),
         "QRT0320",
         None,
         "not a regular file",
@@ -412,7 +421,12 @@ fn a_pipe_is_refused_at_once() {
     let pipe = dir.join("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.unwrap().success());
-    refused(load(&pipe, false), "QRT0320", None, "not a regular file");
+    refused(
+        load(&pipe, Wanted::default()),
+        "QRT0320",
+        None,
+        "not a regular file",
+    );
     let report = crate::front::load(&pipe, &[]).unwrap_err();
     assert!(
         report.to_string().contains("not a regular file"),
@@ -544,15 +558,17 @@ proptest! {
     fn no_text_makes_it_panic(
         obj in prop_oneof![mutated(TWO), mutated(CUBE)],
         mtl in mutated(COLOURS),
-        wants in any::<bool>(),
+        materials in any::<bool>(),
+        normals in any::<bool>(),
     ) {
+        let wants = Wanted { materials, normals };
         let mut library = |_: &Path| Ok(mtl.clone().into());
         match parse(Path::new("mesh.obj"), &obj, wants, Faces::default(), &mut library) {
             Ok(mesh) => {
                 prop_assert!(!mesh.faces.is_empty());
                 for face in &mesh.faces {
                     prop_assert!(face.vertices.iter().all(|v| v.is_finite()));
-                    prop_assert_eq!(face.material.is_some(), wants);
+                    prop_assert_eq!(face.material.is_some(), wants.materials);
                     prop_assert!(face.material.is_none_or(|m| m < mesh.materials.len()));
                 }
                 let mut problems = Problems::default();

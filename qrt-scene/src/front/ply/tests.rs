@@ -104,7 +104,15 @@ fn binary(is_big: bool, end: &str) -> Vec<u8> {
 }
 
 fn read(bytes: &[u8]) -> Result<FileMesh, FileError> {
-    parse("m.ply".as_ref(), bytes, false, Faces::default())
+    parse(
+        "m.ply".as_ref(),
+        bytes,
+        Wanted {
+            materials: false,
+            normals: true,
+        },
+        Faces::default(),
+    )
 }
 
 fn volume(faces: &[FileFace]) -> f64 {
@@ -333,13 +341,13 @@ fn claims_of_a_header_take_neither_memory_nor_time() {
         assert_eq!(error.what.description().code, code, "{head}: {error}");
     }
     let few = Faces { most: 9, left: 9 };
-    let error = parse("m".as_ref(), &ascii("\n"), false, few).unwrap_err();
+    let error = parse("m".as_ref(), &ascii("\n"), Wanted::default(), few).unwrap_err();
     assert_eq!(*error.what, MeshFile::ManyTriangles { most: 9 });
 }
 
 #[test]
 fn a_mesh_without_a_material_of_the_scene_is_refused() {
-    let error = parse("m".as_ref(), &ascii("\n"), true, Faces::default()).unwrap_err();
+    let error = parse("m".as_ref(), &ascii("\n"), Wanted::ALL, Faces::default()).unwrap_err();
     assert_eq!(*error.what, MeshFile::NoMaterials);
 }
 
@@ -367,4 +375,22 @@ proptest! {
             prop_assert!(mesh.faces.iter().all(finite));
         }
     }
+}
+
+#[test]
+fn vertices_may_have_normals() {
+    let text = |properties: &str, [a, b, c]: [&str; 3]| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+             property float z\n{properties}element face 1\n\
+             property list uchar int vertex_index\nend_header\n\
+             0 0 0 {a}\n1 0 0 {b}\n0 1 0 {c}\n3 0 1 2\n"
+        )
+    };
+    let three = "property float nz\nproperty float nx\nproperty float ny\n";
+    let mesh = read(text(three, ["2 0 0", "0 1 0", "nan 0 0"]).as_bytes()).unwrap();
+    assert_eq!(mesh.normals, [[DVec3::Z, DVec3::X, DVec3::Z]]);
+    // Two of the three are no normal.
+    let two = text("property float nx\nproperty float ny\n", ["1 0"; 3]);
+    assert!(read(two.as_bytes()).unwrap().normals.is_empty());
 }

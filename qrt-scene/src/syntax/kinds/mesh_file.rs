@@ -70,6 +70,9 @@ problems! {
         CopiesLeftOut { count: usize } = OBJ_COPY
             { format!("{} in the mesh twice, and left out once", triangles(*count)) }
             help "remove the copies with the tool that made the mesh";
+        ManyAround { count: usize } = MESH_TOO_MANY
+            "{count} triangles meet at one corner: too many for the mean of their normals"
+            help "export the mesh with normals, or write `smooth: 0`";
         Overlarge = OBJ_NOT_FINITE "this face is too large: its area is not a finite number"
             help "scale the mesh in the file, and back in the scene";
         ManyCorners { most: usize } = OBJ_OUTLINE

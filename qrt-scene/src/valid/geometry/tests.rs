@@ -31,6 +31,7 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
         problems: &mut problems,
         names: HashMap::new(),
         out: vec![],
+        smooth: vec![],
         balls: vec![],
         spheres: HashSet::new(),
         files: BTreeSet::new(),
@@ -214,4 +215,63 @@ fn a_mesh_has_one_file() {
         assert_eq!(problem.path(), Some(&place_of(file)));
         assert_eq!(problem.also, other.map(|key| place.name(key).into()));
     }
+}
+
+/// The smooth faces of a mesh under a `key` of the scene.
+fn smooth_faces(obj: &str, key: &str) -> Vec<SmoothFace> {
+    let folder = std::env::temp_dir().join(format!("qrt-smooth-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("ridge.obj");
+    std::fs::write(&file, obj).unwrap();
+    let text = format!(
+        "{{ name: a, film: {{ width: 1, height: 1 }}, sky: {{ radiance: 1 }}, \
+         materials: {{ red: {{ lambertian: {{ albedo: 1 }} }} }}, \
+         geometry: [mesh: {{ obj: {}, material: red, scale: 2, rotate: [90, 0, 0]{key} }}], \
+         camera: {{ perspective: {{ eye: [0, 0, 9], target: [0, 0, 0], vfov: 40 }} }} }}",
+        file.file_name().unwrap().display()
+    );
+    let parsed = crate::front::parse(&text, "smooth.yaml", &[], &folder).unwrap();
+    parsed.valid.smooth_faces().to_vec()
+}
+
+/// A ridge with an angle of 90 degrees, and a flat triangle beyond it.
+const RIDGE: &str = "v 0 0 0\nv 0 2 0\nv 1 0 1\nv 1 2 1\nv 2 0 0\nv 3 0 -1\nv 2 2 0\n";
+
+#[test]
+fn an_angle_decides_which_faces_are_smooth() {
+    let mesh = format!("{RIDGE}f 1 3 4 2\nf 3 5 7 4\nf 5 6 7\n");
+    for (key, smooth) in [
+        ("", vec![]),
+        (", smooth: auto", vec![]),
+        (", smooth: 0", vec![]),
+        (", smooth: 89", vec![]),
+        (", smooth: 90", vec![0, 1, 2, 3]),
+        (", smooth: 180", vec![0, 1, 2, 3]),
+    ] {
+        let faces = smooth_faces(&mesh, key);
+        let polygons: Vec<usize> = faces.iter().map(|face| face.polygon).collect();
+        assert_eq!(polygons, smooth, "{key}");
+        for face in &faces {
+            for normal in face.normals {
+                assert!((normal.length() - 1.0).abs() < 1e-12);
+                // The mesh was turned: its z is the scene's -y.
+                assert!(normal.y < -0.7 && normal.z.abs() < 1e-12, "{normal}");
+            }
+        }
+    }
+}
+
+#[test]
+fn normals_are_on_the_side_of_the_front_and_not_along_the_face() {
+    let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    assert_eq!(bent(&triangle, [DVec3::Z; 3]), None);
+    assert_eq!(bent(&triangle, [-DVec3::Z; 3]), None);
+    // Four decimals are no shading.
+    let rounded = DVec3::new(5e-4, -5e-4, 1.0).normalize();
+    assert_eq!(bent(&triangle, [rounded; 3]), None);
+    let slanted = DVec3::new(0.6, 0.0, 0.8);
+    let along = DVec3::new(-1.0, 0.0, 0.0);
+    let found = bent(&triangle, [slanted, -slanted, along]).unwrap();
+    assert_eq!(found[..2], [slanted; 2]);
+    assert!((found[2] - DVec3::new(-0.9375_f64.sqrt(), 0.0, LEAST_COSINE)).length() < 1e-12);
 }

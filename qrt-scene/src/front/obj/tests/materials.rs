@@ -323,7 +323,13 @@ fn a_mesh_cannot_make_the_reader_look_up_any_number_of_names() {
         };
         let obj = FACE.replace("mtllib a.mtl", &statements);
         let path = Path::new("dir/mesh.obj");
-        let read = parse(path, obj.as_bytes(), true, Faces::default(), &mut library);
+        let read = parse(
+            path,
+            obj.as_bytes(),
+            Wanted::ALL,
+            Faces::default(),
+            &mut library,
+        );
         assert!(judged(read).is_err());
         assert!(count < 1000, "{count} look-ups");
     }

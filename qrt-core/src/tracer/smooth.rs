@@ -1,0 +1,183 @@
+//! Smooth shading: normals that are interpolated over a face.
+//!
+//! The normal at a hit `p` is `n = m + G (p - c)`, with the face's centre `c`, the normal `m` there and a
+//! matrix `G` by face, over its length: an affine function that has the given normals at the corners.
+//!
+//! The face itself stays flat. Where it is met, which side is seen and in which directions a path may go
+//! on follow from the face's own normal:
+//!
+//! * A viewer behind the interpolated normal, as there are at silhouettes, sees the face's own normal.
+//! * A path whose next direction is on one side of the face and on the other side of the normal ends
+//!   there. So does the light of a lamp. Without this rule light would leak into solids (Veach 1997,
+//!   section 5.3).
+//!
+//! A sampled direction thus weighs as much as on a flat face, or nothing, and no bound on a path's colour
+//! grows. The light of a point on a lamp is bounded without the cosine at the surface.
+
+use super::Arith;
+use super::bsdf::Vertex;
+use super::geometry::StageGeometry;
+use super::vector::{self, Vector};
+use glam::{DMat3, DVec3};
+use qrt_scene::valid::{LEAST_NORMAL, SmoothFace};
+
+/// The interpolated normals of a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct SmoothStage {
+    /// By face: 1 if its normal is interpolated, else 0.
+    is_smooth: Vec<u32>,
+    /// By face: the normal at the centre, then its change along x, y and z; zeros for a flat face.
+    rows: Vec<[f64; 12]>,
+    /// A bound on the distance along each axis of a hit from the centre of its face.
+    reach: f64,
+    /// True if paths may go on beyond a smooth face.
+    transmits: bool,
+}
+
+/// A hit in a scene that has smooth faces.
+pub(crate) struct Bent<A: Arith> {
+    /// True if the hit is on a smooth face.
+    pub(crate) is: A::Bool,
+    /// The face's own normal.
+    face_normal: Vector<A>,
+    /// True if paths may go on beyond a smooth face.
+    transmits: bool,
+}
+
+/// Rounding of a hit, relative to the scene.
+const SLACK: f64 = 1.0 / 64.0;
+
+impl SmoothStage {
+    /// Prepares the normals of `faces`; `None` if there are no smooth faces. `transmits` is by face.
+    pub(super) fn new(
+        geometry: &StageGeometry,
+        faces: &[SmoothFace],
+        transmits: &[bool],
+    ) -> Option<Self> {
+        if faces.is_empty() {
+            return None;
+        }
+        let number = geometry.corners.len() + geometry.balls.len();
+        let (mut is_smooth, mut rows) = (vec![0; number], vec![[0.0; 12]; number]);
+        for &SmoothFace { polygon, normals } in faces {
+            let centre = geometry.frames[polygon].centre;
+            is_smooth[polygon] = 1;
+            rows[polygon] = row(&geometry.corners[polygon], normals, centre);
+        }
+        let extents = geometry.corners.iter().zip(&geometry.frames);
+        let extents = extents.flat_map(|(corners, frame)| {
+            let far = |&corner: &DVec3| (corner - frame.centre).abs().max_element();
+            corners.iter().map(far)
+        });
+        // Spheres have no centre here.
+        let least = if geometry.balls.is_empty() { 0.0 } else { 1.0 };
+        Some(Self {
+            is_smooth,
+            rows,
+            reach: extents.fold(least, f64::max) + SLACK,
+            transmits: faces.iter().any(|face| transmits[face.polygon]),
+        })
+    }
+
+    /// True if the normal of `face` is interpolated.
+    pub(super) fn is_smooth(&self, face: u32) -> bool {
+        self.is_smooth[face as usize] == 1
+    }
+
+    /// Replaces the normal of a vertex on `face`, at the point `point`, by the interpolated one. `centre`
+    /// is that of the face.
+    #[inline(always)]
+    pub(super) fn bend<A: Arith>(
+        &self,
+        cx: &mut A,
+        vertex: &mut Vertex<A>,
+        face: A::Index,
+        (point, centre): (&Vector<A>, &Vector<A>),
+    ) {
+        let is = cx.entry(&self.is_smooth, face);
+        let is = cx.is(is, 1);
+        let row = cx.rows(&self.rows, face);
+        let offset = [
+            self.offset(cx, point, centre, 0),
+            self.offset(cx, point, centre, 1),
+            self.offset(cx, point, centre, 2),
+        ];
+        let bent = [
+            component(cx, &row, &offset, 0),
+            component(cx, &row, &offset, 1),
+            component(cx, &row, &offset, 2),
+        ];
+        // Rounding may shorten a normal.
+        let normal = vector::normalize(cx, &bent, 2.0 / LEAST_NORMAL);
+        let cos = math!(cx, known(dot(vertex.arriving, normal), -1.0, 1.0));
+        let faces_viewer = math!(cx, select_truth(vertex.front, cos < 0.0, 0.0 < cos));
+        let takes = cx.and(is, faces_viewer);
+        let face_normal = vertex.normal;
+        vertex.normal = vector::select(cx, takes, &normal, &face_normal);
+        vertex.cos_theta = cx.select(takes, cos, vertex.cos_theta);
+        vertex.bent = Some(Bent {
+            is,
+            face_normal,
+            transmits: self.transmits,
+        });
+    }
+
+    #[inline(always)]
+    fn offset<A: Arith>(
+        &self,
+        cx: &mut A,
+        point: &Vector<A>,
+        centre: &Vector<A>,
+        axis: usize,
+    ) -> A::Real {
+        math!(
+            cx,
+            known(point[axis] - centre[axis], -self.reach, self.reach)
+        )
+    }
+}
+
+impl<A: Arith> Bent<A> {
+    /// True unless `direction` leaves `vertex` on different sides of its face and of its normal.
+    #[inline(always)]
+    pub(crate) fn stays(&self, cx: &mut A, vertex: &Vertex<A>, direction: &Vector<A>) -> A::Bool {
+        let rise = math!(cx, dot(*direction, self.face_normal));
+        let above = if self.transmits {
+            let rise = math!(cx, dot(*direction, vertex.normal));
+            math!(cx, 0.0 < rise)
+        } else {
+            vertex.front
+        };
+        math!(cx, !self.is || select_truth(above, 0.0 < rise, rise < 0.0))
+    }
+}
+
+/// One component of the interpolated normal, before it has unit length.
+#[inline(always)]
+fn component<A: Arith>(
+    cx: &mut A,
+    row: &[A::Real; 12],
+    offset: &Vector<A>,
+    axis: usize,
+) -> A::Real {
+    let change = [row[3 + axis], row[6 + axis], row[9 + axis]];
+    math!(cx, known(row[axis] + dot(change, *offset), -1.0, 1.0))
+}
+
+/// The normal at `centre` of the triangle with these `corners` and `normals` there, then its change along
+/// each axis.
+fn row(corners: &[DVec3], normals: [DVec3; 3], centre: DVec3) -> [f64; 12] {
+    let [a, b, c] = [corners[0], corners[1], corners[2]];
+    let across = (b - a).cross(c - a);
+    let square = across.length_squared();
+    // The gradients of the barycentric coordinates of the second and the third corner.
+    let gradients = [(c - a).cross(across) / square, across.cross(b - a) / square];
+    let steps = [normals[1] - normals[0], normals[2] - normals[0]];
+    let column = |axis: usize| steps[0] * gradients[0][axis] + steps[1] * gradients[1][axis];
+    let change = DMat3::from_cols(column(0), column(1), column(2));
+    let middle = normals[0] + change * (centre - a);
+    let mut row = [0.0; 12];
+    middle.write_to_slice(&mut row);
+    change.write_cols_to_slice(&mut row[3..]);
+    row
+}
