@@ -23,6 +23,7 @@ mod pictures {
     mod references;
     mod same_picture;
     mod searched_pictures;
+    mod smooth;
     mod spheres;
     mod stopping;
     mod strata_of_thresholds;

@@ -28,11 +28,12 @@ fn scene(name: &str, fraction: u32, path_bits: u32) -> ValidScene {
                     { bits: [10, 10] }]";
         sets.push(rays);
     }
-    // Replace stools of 42 faces by four faces each.
+    // Replace stools of 42 faces by four faces each, one of them smooth.
     if name == "velvet" {
         sets.extend([
             "geometry[3].mesh.obj=../tests/good_scenes/tetrahedron.obj",
             "geometry[4].mesh.obj=../tests/good_scenes/tetrahedron.obj",
+            "geometry[3].mesh.smooth=180",
         ]);
     }
     from_file(&format!("scenes-yaml/{name}.yaml"), &sets)

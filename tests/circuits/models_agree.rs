@@ -120,6 +120,18 @@ fn of_the_mesh() {
 }
 
 #[test]
+fn of_smooth_meshes() {
+    // The normals of its corners are as far from those of its faces as they may be.
+    agrees(
+        "scenes-yaml/knot.yaml",
+        &[MESH[0], "geometry[2].mesh.smooth=180"],
+    );
+    let [first, second] = STOOLS;
+    let smooth = "geometry[3].mesh.smooth=180";
+    agrees("scenes-yaml/velvet.yaml", &[first, second, smooth]);
+}
+
+#[test]
 fn of_a_bsdf_of_ones_own() {
     agrees("scenes-yaml/velvet.yaml", &STOOLS);
 }

@@ -198,6 +198,13 @@ fn lamps_that_are_spheres_agree() {
     agrees_by_lamps("bulbs", 0.1);
 }
 
+/// Smooth meshes of glass, metal and clay in a room, whose file and materials are as Blender writes them.
+#[test]
+fn a_room_from_blender_agrees() {
+    agrees("blender_room", 12, 0.15);
+    agrees_by_lamps("blender_room", 0.1);
+}
+
 #[test]
 fn the_furnace_is_exact_at_every_depth() {
     let (radiance, albedo) = ([1.0, 0.5, 0.25], [0.25, 0.5, 0.8]);

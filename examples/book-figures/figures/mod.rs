@@ -62,12 +62,13 @@ impl Figure {
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.
-pub(crate) const ALL: [(&str, Make); 46] = [
+pub(crate) const ALL: [(&str, Make); 47] = [
     ("first-picture.png", pictures::first),
     ("noise-strip.png", pictures::noise),
     ("counted-strip.png", pictures::counted),
     ("cornell-box-gates.png", pictures::gates),
     ("materials.png", pictures::materials),
+    ("smooth.png", pictures::smooth),
     ("light-strip.png", pictures::lights),
     ("circuit-garbage.svg", gates::garbage),
     ("circuit-flip.svg", gates::flip),

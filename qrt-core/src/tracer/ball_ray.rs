@@ -9,10 +9,10 @@
 //!
 //! Circuits search spheres in [`super::search::balls`].
 
-use super::Arith;
 use super::ball::StageBall;
 use super::ray::Ray;
 use super::vector::{self, Vector};
+use super::{Arith, Work};
 
 /// A ray with the number that all spheres share.
 pub struct BallRay<'a, A: Arith> {
@@ -180,22 +180,31 @@ impl<A: Arith> Round<A> {
 
 /// A tangent and a bitangent of a unit normal (Duff et al., Building an Orthonormal Basis, Revisited,
 /// 2017).
-#[inline(always)]
-pub(super) fn tangents<A: Arith>(cx: &mut A, &[x, y, z]: &Vector<A>) -> [Vector<A>; 2] {
-    let below = math!(cx, z < 0.0);
-    let height = cx.abs(z);
-    let inverse = math!(cx, div(1.0, 1.0 + height, 1.0));
-    let across = math!(cx, x * y * inverse);
-    let tangent = [
-        math!(cx, known(1.0 - x * x * inverse, -1.0, 1.0)),
-        cx.neg(across),
-        math!(cx, select(below, x, -x)),
-    ];
-    let along = math!(cx, 1.0 - y * y * inverse);
-    let bitangent = [
-        math!(cx, select(below, across, -across)),
-        math!(cx, known(select(below, -along, along), -1.0, 1.0)),
-        cx.neg(y),
-    ];
-    [tangent, bitangent]
+pub(super) struct Tangents<'a, A: Arith> {
+    pub(super) normal: &'a Vector<A>,
+}
+
+impl<A: Arith> Work<A> for Tangents<'_, A> {
+    type Output = [Vector<A>; 2];
+
+    #[inline(always)]
+    fn run(self, cx: &mut A) -> [Vector<A>; 2] {
+        let &[x, y, z] = self.normal;
+        let below = math!(cx, z < 0.0);
+        let height = cx.abs(z);
+        let inverse = math!(cx, div(1.0, 1.0 + height, 1.0));
+        let across = math!(cx, x * y * inverse);
+        let tangent = [
+            math!(cx, known(1.0 - x * x * inverse, -1.0, 1.0)),
+            cx.neg(across),
+            math!(cx, select(below, x, -x)),
+        ];
+        let along = math!(cx, 1.0 - y * y * inverse);
+        let bitangent = [
+            math!(cx, select(below, across, -across)),
+            math!(cx, known(select(below, -along, along), -1.0, 1.0)),
+            cx.neg(y),
+        ];
+        [tangent, bitangent]
+    }
 }

@@ -1,7 +1,7 @@
 //! The frame itself: the paper's `Path Tracing`, stage by stage.
 
 use super::arith::Segment;
-use super::ball_ray::{Round, tangents};
+use super::ball_ray::{Round, Tangents};
 use super::bsdf::Vertex;
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
@@ -148,8 +148,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
                 Some(round) => round.point,
                 None => point_at(cx, &ray, hit.distance),
             };
-            let [.., gx, gy, gz] = cx.rows(&stage.frames, hit.face);
-            smooth.bend(cx, &mut vertex, hit.face, (&point, &[gx, gy, gz]));
+            smooth.bend(cx, &mut vertex, hit.face, &point);
             cx.leave();
         }
         let mut known = None;
@@ -251,8 +250,8 @@ fn frame<A: Arith, const C: usize>(
         (None, Some(bent)) => bent.is,
         (Some(round), Some(bent)) => cx.or(round.is, bent.is),
     };
-    let [t, b] = tangents(cx, &vertex.normal);
-    let own = [t[0], t[1], t[2], b[0], b[1], b[2]];
+    let normal = &vertex.normal;
+    let own = cx.apart(Tangents { normal }).into_iter().flatten();
     for (entry, own) in row.iter_mut().zip(own) {
         *entry = cx.select(computed, own, *entry);
     }

@@ -14,10 +14,10 @@
 //! A sampled direction thus weighs as much as on a flat face, or nothing, and no bound on a path's colour
 //! grows. The light of a point on a lamp is bounded without the cosine at the surface.
 
-use super::Arith;
 use super::bsdf::Vertex;
 use super::geometry::StageGeometry;
 use super::vector::{self, Vector};
+use super::{Arith, Work};
 use glam::{DMat3, DVec3};
 use qrt_scene::valid::{LEAST_NORMAL, SmoothFace};
 
@@ -26,9 +26,10 @@ use qrt_scene::valid::{LEAST_NORMAL, SmoothFace};
 pub(crate) struct SmoothStage {
     /// By face: 1 if its normal is interpolated, else 0.
     is_smooth: Vec<u32>,
-    /// By face: the normal at the centre, then its change along x, y and z; zeros for a flat face.
-    rows: Vec<[f64; 12]>,
-    /// A bound on the distance along each axis of a hit from the centre of its face.
+    /// By face: the normal at the centre, its change along x, y and z, and the centre; zeros for a flat
+    /// face.
+    rows: Vec<[f64; 15]>,
+    /// A bound on the distance along each axis of a hit on a smooth face from the face's centre.
     reach: f64,
     /// True if paths may go on beyond a smooth face.
     transmits: bool,
@@ -44,8 +45,8 @@ pub(crate) struct Bent<A: Arith> {
     transmits: bool,
 }
 
-/// Rounding of a hit, relative to the scene.
-const SLACK: f64 = 1.0 / 64.0;
+/// A bound on the rounding of a hit, in stage units.
+const SLACK: f64 = 1.0 / 32.0;
 
 impl SmoothStage {
     /// Prepares the normals of `faces`; `None` if there are no smooth faces. `transmits` is by face.
@@ -58,23 +59,20 @@ impl SmoothStage {
             return None;
         }
         let number = geometry.corners.len() + geometry.balls.len();
-        let (mut is_smooth, mut rows) = (vec![0; number], vec![[0.0; 12]; number]);
+        let (mut is_smooth, mut rows) = (vec![0; number], vec![[0.0; 15]; number]);
+        let mut reach: f64 = 0.0;
         for &SmoothFace { polygon, normals } in faces {
             let centre = geometry.frames[polygon].centre;
+            let corners = &geometry.corners[polygon];
             is_smooth[polygon] = 1;
-            rows[polygon] = row(&geometry.corners[polygon], normals, centre);
+            rows[polygon] = row(corners, normals, centre);
+            let extents = corners.iter().map(|&c| (c - centre).abs().max_element());
+            reach = extents.fold(reach, f64::max);
         }
-        let extents = geometry.corners.iter().zip(&geometry.frames);
-        let extents = extents.flat_map(|(corners, frame)| {
-            let far = |&corner: &DVec3| (corner - frame.centre).abs().max_element();
-            corners.iter().map(far)
-        });
-        // Spheres have no centre here.
-        let least = if geometry.balls.is_empty() { 0.0 } else { 1.0 };
         Some(Self {
             is_smooth,
             rows,
-            reach: extents.fold(least, f64::max) + SLACK,
+            reach: reach + SLACK,
             transmits: faces.iter().any(|face| transmits[face.polygon]),
         })
     }
@@ -84,23 +82,62 @@ impl SmoothStage {
         self.is_smooth[face as usize] == 1
     }
 
-    /// Replaces the normal of a vertex on `face`, at the point `point`, by the interpolated one. `centre`
-    /// is that of the face.
+    /// Replaces the normal of a vertex on `face`, at the point `point`, by the interpolated one.
     #[inline(always)]
     pub(super) fn bend<A: Arith>(
         &self,
         cx: &mut A,
         vertex: &mut Vertex<A>,
         face: A::Index,
-        (point, centre): (&Vector<A>, &Vector<A>),
+        point: &Vector<A>,
     ) {
-        let is = cx.entry(&self.is_smooth, face);
+        let face_normal = vertex.normal;
+        let (is, normal, cos) = cx.apart(Interpolation {
+            smooth: self,
+            vertex,
+            face,
+            point,
+        });
+        vertex.normal = normal;
+        vertex.cos_theta = cos;
+        vertex.bent = Some(Bent {
+            is,
+            face_normal,
+            transmits: self.transmits,
+        });
+    }
+}
+
+/// The normal at the point `point` of `face`.
+struct Interpolation<'a, A: Arith> {
+    smooth: &'a SmoothStage,
+    /// The vertex, with the face's own normal.
+    vertex: &'a Vertex<A>,
+    face: A::Index,
+    point: &'a Vector<A>,
+}
+
+impl<A: Arith> Work<A> for Interpolation<'_, A> {
+    /// Returns whether the face is smooth, the normal, and its dot product with the arriving direction.
+    type Output = (A::Bool, Vector<A>, A::Real);
+
+    #[inline(always)]
+    fn run(self, cx: &mut A) -> Self::Output {
+        let Self {
+            smooth,
+            vertex,
+            face,
+            point,
+        } = self;
+        let is = cx.entry(&smooth.is_smooth, face);
         let is = cx.is(is, 1);
-        let row = cx.rows(&self.rows, face);
+        let row = cx.rows(&smooth.rows, face);
+        let [.., gx, gy, gz] = row;
+        let (offset, reach) = (vector!(cx, *point - [gx, gy, gz]), smooth.reach);
         let offset = [
-            self.offset(cx, point, centre, 0),
-            self.offset(cx, point, centre, 1),
-            self.offset(cx, point, centre, 2),
+            cx.known(offset[0], -reach, reach),
+            cx.known(offset[1], -reach, reach),
+            cx.known(offset[2], -reach, reach),
         ];
         let bent = [
             component(cx, &row, &offset, 0),
@@ -112,28 +149,8 @@ impl SmoothStage {
         let cos = math!(cx, known(dot(vertex.arriving, normal), -1.0, 1.0));
         let faces_viewer = math!(cx, select_truth(vertex.front, cos < 0.0, 0.0 < cos));
         let takes = cx.and(is, faces_viewer);
-        let face_normal = vertex.normal;
-        vertex.normal = vector::select(cx, takes, &normal, &face_normal);
-        vertex.cos_theta = cx.select(takes, cos, vertex.cos_theta);
-        vertex.bent = Some(Bent {
-            is,
-            face_normal,
-            transmits: self.transmits,
-        });
-    }
-
-    #[inline(always)]
-    fn offset<A: Arith>(
-        &self,
-        cx: &mut A,
-        point: &Vector<A>,
-        centre: &Vector<A>,
-        axis: usize,
-    ) -> A::Real {
-        math!(
-            cx,
-            known(point[axis] - centre[axis], -self.reach, self.reach)
-        )
+        let normal = vector::select(cx, takes, &normal, &vertex.normal);
+        (is, normal, cx.select(takes, cos, vertex.cos_theta))
     }
 }
 
@@ -156,7 +173,7 @@ impl<A: Arith> Bent<A> {
 #[inline(always)]
 fn component<A: Arith>(
     cx: &mut A,
-    row: &[A::Real; 12],
+    row: &[A::Real; 15],
     offset: &Vector<A>,
     axis: usize,
 ) -> A::Real {
@@ -164,9 +181,8 @@ fn component<A: Arith>(
     math!(cx, known(row[axis] + dot(change, *offset), -1.0, 1.0))
 }
 
-/// The normal at `centre` of the triangle with these `corners` and `normals` there, then its change along
-/// each axis.
-fn row(corners: &[DVec3], normals: [DVec3; 3], centre: DVec3) -> [f64; 12] {
+/// The row of [`SmoothStage::rows`] of the triangle with these `corners`, with `normals` there.
+fn row(corners: &[DVec3], normals: [DVec3; 3], centre: DVec3) -> [f64; 15] {
     let [a, b, c] = [corners[0], corners[1], corners[2]];
     let across = (b - a).cross(c - a);
     let square = across.length_squared();
@@ -176,8 +192,9 @@ fn row(corners: &[DVec3], normals: [DVec3; 3], centre: DVec3) -> [f64; 12] {
     let column = |axis: usize| steps[0] * gradients[0][axis] + steps[1] * gradients[1][axis];
     let change = DMat3::from_cols(column(0), column(1), column(2));
     let middle = normals[0] + change * (centre - a);
-    let mut row = [0.0; 12];
+    let mut row = [0.0; 15];
     middle.write_to_slice(&mut row);
     change.write_cols_to_slice(&mut row[3..]);
+    centre.write_to_slice(&mut row[12..]);
     row
 }

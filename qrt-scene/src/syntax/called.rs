@@ -128,6 +128,8 @@ const ROWS: &[(&str, &[&str], Here)] = &[
     ("a mesh", &["position", "offset", "translation", "location"], Name("translate")),
     ("a mesh", &["rotation", "orientation"], Name("rotate")),
     ("a mesh", &["size"], Name("scale")),
+    ("a mesh", &["smoothing", "smooth_shading", "shade_smooth", "auto_smooth", "smooth_angle"], Name("smooth")),
+    ("a mesh", &["face_normals", "flat", "shade_flat"], Words("write `smooth: 0` for flat faces")),
     ("sampling", &["spp", "samples", "samplesperpixel", "paths", "rays"],
         Words("write `path_bits`: a pixel has 2^path_bits paths")),
     ("sampling", &["maxdepth", "depth"], Name("depths")),
