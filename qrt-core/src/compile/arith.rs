@@ -4,7 +4,7 @@ use super::names::Nameable;
 use super::number::RegisterShape;
 use super::value::{Affine, BoolValue, Index, RealValue, Value, bits_of};
 use super::{BuildError, Builder, MAX_ADDRESS, StageName, negative_range};
-use crate::tracer::{Arith, Coordinate, Named, Sampled, Segment, TracerPart};
+use crate::tracer::{Arith, Coordinate, Named, Sampled, Segment, TracerPart, Work};
 use qrt_circuit::{Op, Operand, Word};
 use qrt_scene::expr::Function;
 
@@ -118,6 +118,10 @@ impl Arith for Builder<'_> {
         if self.segments.len() == depth {
             self.segments.push(segment);
         }
+    }
+
+    fn apart<W: Work<Self>>(&mut self, work: W) -> W::Output {
+        in_a_function(self, work)
     }
 
     fn of_surface(&mut self, surface: Option<u32>) {
@@ -291,6 +295,12 @@ impl Arith for Builder<'_> {
     fn leave(&mut self) {
         self.end();
     }
+}
+
+/// Runs `work`. The compiler then has smaller functions to optimise.
+#[inline(never)]
+fn in_a_function<A: Arith, W: Work<A>>(cx: &mut A, work: W) -> W::Output {
+    work.run(cx)
 }
 
 impl Builder<'_> {

@@ -2,7 +2,7 @@
 
 use super::arith::Segment;
 use super::ball_ray::{Round, Tangents};
-use super::bsdf::Vertex;
+use super::bsdf::{Scattering, Vertex};
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
 use super::ray::{NearestSearch, Ray, Start, point_at};
@@ -201,7 +201,8 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         if let (Some(checkers), Some(origin)) = (pattern, &origin) {
             vertex.tint = checkers.row(cx, origin, hit.face, surface);
         }
-        let scattered = scatter.scatter(cx, &vertex);
+        let at = &vertex;
+        let scattered = cx.apart(Scattering { scatter, at });
         if let Some(stays) = vertex.stays(cx, &scattered.direction) {
             alive = cx.and(alive, stays);
         }

@@ -23,7 +23,7 @@ pub(crate) use vertex::{Vertex, members};
 use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;
 use super::vector::{self, Vector};
-use super::{Arith, Coordinate, Sampled, TracerPart};
+use super::{Arith, Coordinate, Sampled, TracerPart, Work};
 use custom::CustomLobe;
 use dielectric::DielectricLobe;
 use ggx::GgxLobe;
@@ -465,7 +465,7 @@ impl<const C: usize> ScatterStage<C> {
 
     /// The next direction and weight of every path that scatters; arbitrary for the others.
     #[inline(always)]
-    pub(crate) fn scatter<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
+    fn scatter<A: Arith>(&self, cx: &mut A, at: &Vertex<A>) -> Scattered<A, C> {
         let square = &self.square;
         let zero = cx.real(0.0);
         let mut sample = Sample {
@@ -514,6 +514,21 @@ impl<const C: usize> ScatterStage<C> {
             weight: [zero; C],
             density: zero,
         })
+    }
+}
+
+/// The next direction and weight of the paths at a vertex: see [`ScatterStage::scatter`].
+pub(crate) struct Scattering<'a, A: Arith, const C: usize> {
+    pub(crate) scatter: &'a ScatterStage<C>,
+    pub(crate) at: &'a Vertex<A>,
+}
+
+impl<A: Arith, const C: usize> Work<A> for Scattering<'_, A, C> {
+    type Output = Scattered<A, C>;
+
+    #[inline(always)]
+    fn run(self, cx: &mut A) -> Self::Output {
+        self.scatter.scatter(cx, self.at)
     }
 }
 
