@@ -2,10 +2,11 @@
 
 use super::arith::Segment;
 use super::ball_ray::{Round, Tangents};
-use super::bsdf::{Scattering, Vertex};
+use super::bsdf::{Bent, Scattering, Vertex};
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
 use super::ray::{NearestSearch, Ray, Start, point_at};
+use super::smooth::FlatHit;
 use super::vector::{self, Vector};
 use super::{Arith, Named, Quantity, Stage, TracerPart};
 
@@ -148,7 +149,23 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
                 Some(round) => round.point,
                 None => point_at(cx, &ray, hit.distance),
             };
-            smooth.bend(cx, &mut vertex, hit.face, &point);
+            let face_normal = vertex.normal;
+            let found = cx.apart(FlatHit {
+                face: hit.face,
+                point,
+                arriving: ray.direction,
+                front: vertex.front,
+                normal: face_normal,
+                cos_theta: vertex.cos_theta,
+                smooth,
+            });
+            vertex.normal = found.normal;
+            vertex.cos_theta = found.cos_theta;
+            vertex.bent = Some(Bent {
+                is: found.is,
+                face_normal,
+                transmits: smooth.transmits(),
+            });
             cx.leave();
         }
         let mut known = None;

@@ -8,13 +8,12 @@
 //!
 //! * A viewer behind the interpolated normal, as there are at silhouettes, sees the face's own normal.
 //! * A path whose next direction is on one side of the face and on the other side of the normal ends
-//!   there. So does the light of a lamp. Without this rule light would leak into solids (Veach 1997,
-//!   section 5.3).
+//!   there. So does the light of a lamp. Without this rule light would leak into solids. PBRT 3 has the
+//!   same rule (`BSDF::f`).
 //!
 //! A sampled direction thus weighs as much as on a flat face, or nothing, and no bound on a path's colour
 //! grows. The light of a point on a lamp is bounded without the cosine at the surface.
 
-use super::bsdf::Vertex;
 use super::geometry::StageGeometry;
 use super::vector::{self, Vector};
 use super::{Arith, Work};
@@ -31,16 +30,6 @@ pub(crate) struct SmoothStage {
     rows: Vec<[f64; 15]>,
     /// A bound on the distance along each axis of a hit on a smooth face from the face's centre.
     reach: f64,
-    /// True if paths may go on beyond a smooth face.
-    transmits: bool,
-}
-
-/// A hit in a scene that has smooth faces.
-pub(crate) struct Bent<A: Arith> {
-    /// True if the hit is on a smooth face.
-    pub(crate) is: A::Bool,
-    /// The face's own normal.
-    face_normal: Vector<A>,
     /// True if paths may go on beyond a smooth face.
     transmits: bool,
 }
@@ -82,58 +71,48 @@ impl SmoothStage {
         self.is_smooth[face as usize] == 1
     }
 
-    /// Replaces the normal of a vertex on `face`, at the point `point`, by the interpolated one.
-    #[inline(always)]
-    pub(super) fn bend<A: Arith>(
-        &self,
-        cx: &mut A,
-        vertex: &mut Vertex<A>,
-        face: A::Index,
-        point: &Vector<A>,
-    ) {
-        let face_normal = vertex.normal;
-        let (is, normal, cos) = cx.apart(Interpolation {
-            smooth: self,
-            vertex,
-            face,
-            point,
-        });
-        vertex.normal = normal;
-        vertex.cos_theta = cos;
-        vertex.bent = Some(Bent {
-            is,
-            face_normal,
-            transmits: self.transmits,
-        });
+    /// True if paths may go on beyond a smooth face.
+    pub(super) fn transmits(&self) -> bool {
+        self.transmits
     }
 }
 
-/// The normal at the point `point` of `face`.
-struct Interpolation<'a, A: Arith> {
-    smooth: &'a SmoothStage,
-    /// The vertex, with the face's own normal.
-    vertex: &'a Vertex<A>,
-    face: A::Index,
-    point: &'a Vector<A>,
+/// A hit on `face`, at the point `point`, as it is on a flat face.
+pub(super) struct FlatHit<'a, A: Arith> {
+    pub(super) face: A::Index,
+    pub(super) point: Vector<A>,
+    /// The direction in which the path arrived.
+    pub(super) arriving: Vector<A>,
+    /// True if the viewer sees the front of the face.
+    pub(super) front: A::Bool,
+    /// The face's own normal.
+    pub(super) normal: Vector<A>,
+    /// The dot product of the arriving direction and `normal`.
+    pub(super) cos_theta: A::Real,
+    pub(super) smooth: &'a SmoothStage,
 }
 
-impl<A: Arith> Work<A> for Interpolation<'_, A> {
-    /// Returns whether the face is smooth, the normal, and its dot product with the arriving direction.
-    type Output = (A::Bool, Vector<A>, A::Real);
+/// The normal of a hit, in a scene that has smooth faces.
+pub(super) struct Interpolated<A: Arith> {
+    /// True if the face is smooth.
+    pub(super) is: A::Bool,
+    /// The interpolated normal, or the face's own.
+    pub(super) normal: Vector<A>,
+    /// The dot product of the arriving direction and `normal`.
+    pub(super) cos_theta: A::Real,
+}
+
+impl<A: Arith> Work<A> for FlatHit<'_, A> {
+    type Output = Interpolated<A>;
 
     #[inline(always)]
-    fn run(self, cx: &mut A) -> Self::Output {
-        let Self {
-            smooth,
-            vertex,
-            face,
-            point,
-        } = self;
+    fn run(self, cx: &mut A) -> Interpolated<A> {
+        let Self { face, smooth, .. } = self;
         let is = cx.entry(&smooth.is_smooth, face);
         let is = cx.is(is, 1);
         let row = cx.rows(&smooth.rows, face);
         let [.., gx, gy, gz] = row;
-        let (offset, reach) = (vector!(cx, *point - [gx, gy, gz]), smooth.reach);
+        let (offset, reach) = (vector!(cx, self.point - [gx, gy, gz]), smooth.reach);
         let offset = [
             cx.known(offset[0], -reach, reach),
             cx.known(offset[1], -reach, reach),
@@ -146,26 +125,14 @@ impl<A: Arith> Work<A> for Interpolation<'_, A> {
         ];
         // Rounding may shorten a normal.
         let normal = vector::normalize(cx, &bent, 2.0 / LEAST_NORMAL);
-        let cos = math!(cx, known(dot(vertex.arriving, normal), -1.0, 1.0));
-        let faces_viewer = math!(cx, select_truth(vertex.front, cos < 0.0, 0.0 < cos));
+        let cos = math!(cx, known(dot(self.arriving, normal), -1.0, 1.0));
+        let faces_viewer = math!(cx, select_truth(self.front, cos < 0.0, 0.0 < cos));
         let takes = cx.and(is, faces_viewer);
-        let normal = vector::select(cx, takes, &normal, &vertex.normal);
-        (is, normal, cx.select(takes, cos, vertex.cos_theta))
-    }
-}
-
-impl<A: Arith> Bent<A> {
-    /// True unless `direction` leaves `vertex` on different sides of its face and of its normal.
-    #[inline(always)]
-    pub(crate) fn stays(&self, cx: &mut A, vertex: &Vertex<A>, direction: &Vector<A>) -> A::Bool {
-        let rise = math!(cx, dot(*direction, self.face_normal));
-        let above = if self.transmits {
-            let rise = math!(cx, dot(*direction, vertex.normal));
-            math!(cx, 0.0 < rise)
-        } else {
-            vertex.front
-        };
-        math!(cx, !self.is || select_truth(above, 0.0 < rise, rise < 0.0))
+        Interpolated {
+            is,
+            normal: vector::select(cx, takes, &normal, &self.normal),
+            cos_theta: cx.select(takes, cos, self.cos_theta),
+        }
     }
 }
 

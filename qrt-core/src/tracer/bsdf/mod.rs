@@ -18,7 +18,7 @@ mod tests;
 mod vertex;
 
 pub(crate) use emitter::Emitters;
-pub(crate) use vertex::{Vertex, members};
+pub(crate) use vertex::{Bent, Vertex, members};
 
 use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;

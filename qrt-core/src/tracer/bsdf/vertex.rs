@@ -1,6 +1,5 @@
 //! The vertex at which a path scatters, its local frame, and the choice among surfaces.
 
-use crate::tracer::smooth::Bent;
 use crate::tracer::vector::{self, Vector};
 use crate::tracer::{Arith, TracerPart};
 use std::ops::Range;
@@ -38,6 +37,31 @@ impl<A: Arith> Vertex<A> {
     pub(crate) fn stays(&self, cx: &mut A, direction: &Vector<A>) -> Option<A::Bool> {
         let bent = self.bent.as_ref()?;
         Some(bent.stays(cx, self, direction))
+    }
+}
+
+/// A hit in a scene that has smooth faces.
+pub(crate) struct Bent<A: Arith> {
+    /// True if the hit is on a smooth face.
+    pub(crate) is: A::Bool,
+    /// The face's own normal.
+    pub(crate) face_normal: Vector<A>,
+    /// True if paths may go on beyond a smooth face.
+    pub(crate) transmits: bool,
+}
+
+impl<A: Arith> Bent<A> {
+    /// True unless `direction` leaves `vertex` on different sides of its face and of its normal.
+    #[inline(always)]
+    fn stays(&self, cx: &mut A, vertex: &Vertex<A>, direction: &Vector<A>) -> A::Bool {
+        let rise = math!(cx, dot(*direction, self.face_normal));
+        let above = if self.transmits {
+            let rise = math!(cx, dot(*direction, vertex.normal));
+            math!(cx, 0.0 < rise)
+        } else {
+            vertex.front
+        };
+        math!(cx, !self.is || select_truth(above, 0.0 < rise, rise < 0.0))
     }
 }
 
