@@ -503,9 +503,10 @@ fn ply(faces: &[&Face<'_>], cells: &[Option<[Cell; 2]>], has_normals: bool) -> V
     let names = [("x y z", true), ("nx ny nz", has_normals), ("u v", has_uv)];
     let names = names.into_iter().filter(|(_, is_there)| *is_there);
     let names = names.flat_map(|(names, _)| names.split(' '));
-    let properties: String = names
+    let properties: Vec<String> = names
         .map(|name| format!("property double {name}\n"))
         .collect();
+    let properties = properties.concat();
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n{properties}element face {}\n\
          property list uchar int vertex_indices\nend_header\n",

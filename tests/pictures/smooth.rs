@@ -78,11 +78,17 @@ fn ball(cuts: u32, has_normals: bool) -> String {
         text.extend(corners.iter().map(|&corner| line("vn", corner)));
     }
     for face in faces {
-        let corners = face.map(|corner| match has_normals {
-            true => format!("{0}//{0}", corner + 1),
-            false => (corner + 1).to_string(),
+        let corners = face.map(|corner| {
+            let number = corner + 1;
+            if has_normals {
+                format!("{number}//{number}")
+            } else {
+                number.to_string()
+            }
         });
-        text += &format!("f {}\n", corners.join(" "));
+        text += "f ";
+        text += &corners.join(" ");
+        text.push('\n');
     }
     // Tests of one process write the same bytes; a rename leaves no partial file to the others.
     let partial = path.with_extension(format!("{:?}", std::thread::current().id()));

@@ -90,9 +90,10 @@ impl Lamps {
         let is_smooth = |label: u32| smooth.is_some_and(|smooth| smooth.is_smooth(label));
         let face_of = |label: u32| {
             if let Some(outline) = geometry.corners.get(label as usize) {
-                return match is_smooth(label) {
-                    true => LitFace::Smooth(outline),
-                    false => LitFace::Polygon(outline),
+                return if is_smooth(label) {
+                    LitFace::Smooth(outline)
+                } else {
+                    LitFace::Polygon(outline)
                 };
             }
             let ball = &geometry.balls[label as usize - geometry.corners.len()];

@@ -193,11 +193,13 @@ fn form(face: &Triangle, lamp: &Triangle) -> f64 {
 }
 
 fn smooth_form(face: &Triangle, lamp: &Triangle) -> f64 {
-    match seen(face, lamp) {
-        None => 0.0,
-        Some([.., r]) if r == 0.0 => f64::INFINITY,
-        Some([_, m, r]) => (m / r).min(1.0) / (r * r),
+    let Some([_, m, r]) = seen(face, lamp) else {
+        return 0.0;
+    };
+    if r == 0.0 {
+        return f64::INFINITY;
     }
+    (m / r).min(1.0) / (r * r)
 }
 
 fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {

@@ -7,15 +7,21 @@ const ROOF: &str = "v 0 0 0\nv 0 2 0\nv 1 0 1\nv 1 2 1\nv 2 0 0\nv 2 2 0\n";
 
 fn normals(faces: &str) -> Vec<[[f64; 3]; 3]> {
     let read = read(&format!("{ROOF}{faces}")).unwrap();
-    let rounded = |x: f64| (x * 1e4).round() / 1e4 + 0.0;
+    // Rounding is not tested.
+    let rounded = |x: f64| {
+        let known = [0.0, SLANT, 1.0];
+        let near = known.iter().find(|known| (x.abs() - **known).abs() < 1e-12);
+        near.map_or(x, |near| near.copysign(x) + 0.0)
+    };
     let normals = read.normals.iter();
     normals
         .map(|corners| corners.map(|normal| normal.to_array().map(rounded)))
         .collect()
 }
 
-const LEFT: [f64; 3] = [-0.7071, 0.0, 0.7071];
-const RIGHT: [f64; 3] = [0.7071, 0.0, 0.7071];
+const SLANT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const LEFT: [f64; 3] = [-SLANT, 0.0, SLANT];
+const RIGHT: [f64; 3] = [SLANT, 0.0, SLANT];
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 #[test]
