@@ -2,9 +2,14 @@
 //!
 //! The picture of qrt's scene is the expected value of Mitsuba's `path` integrator, if the
 //! integrator stops at the same depth and never by chance. The export states explicitly what
-//! Mitsuba does differently by default: faces are flat, or smooth by the normals that qrt uses; surfaces other than dielectrics act on
-//! both sides; outside of glass there is vacuum, not air; a pixel is the mean over its square; the
-//! field of view is vertical.
+//! Mitsuba does differently by default: faces are flat, or smooth by the normals that qrt uses;
+//! surfaces other than dielectrics act on both sides; outside of glass there is vacuum, not air; a
+//! pixel is the mean over its square; the field of view is vertical.
+//!
+//! On smooth meshes the expected value differs at outlines, where the interpolated normal is behind
+//! the viewer or a direction is on different sides of the face and of its normal. Mitsuba has no rule
+//! for these. A smooth lamp that also reflects emits by its face's normal in qrt, by the interpolated
+//! one in Mitsuba.
 //!
 //! <https://mitsuba.readthedocs.io/en/stable/src/generated/plugins_bsdfs.html> and the pages beside it.
 //!

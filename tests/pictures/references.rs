@@ -198,9 +198,10 @@ fn lamps_that_are_spheres_agree() {
     agrees_by_lamps("bulbs", 0.1);
 }
 
-/// Smooth meshes of glass, metal and clay in a room, whose file and materials are as Blender writes them.
+/// Smooth meshes of glass, metal and clay in a room. Its file and materials have the form that Blender's
+/// exporter writes.
 #[test]
-fn a_room_from_blender_agrees() {
+fn a_room_in_blenders_form_agrees() {
     agrees("blender_room", 12, 0.15);
     agrees_by_lamps("blender_room", 0.1);
 }

@@ -256,3 +256,92 @@ fn circuits_shade_smoothly() {
         assert!(error < 0.02, "{material}: {error}");
     }
 }
+
+fn text(camera: &str, materials: &str, geometry: &str, sampling: &str) -> String {
+    format!(
+        "name: smooth\ncamera: {{ perspective: {{ {camera} }} }}\nfilm: {{ width: 8, height: 8 }}\n\
+         sky: {{ horizon: 1, zenith: 0.2 }}\nmaterials: {{ {materials} }}\n\
+         geometry: [{geometry}]\nsampling: {{ {sampling} }}\n"
+    )
+}
+
+/// Rays to the corners of a wide film are much longer than those along its axis, and interpolated normals
+/// and mirrors read their angles.
+#[test]
+fn wide_views_are_shaded_as_narrow_ones() {
+    let camera = "eye: [0.05, 0.1, 0.2], target: [0, 0, -1], vfov: 150";
+    let quad = "quad: { vertices: [[-9, -1, 9], [9, -1, 9], [9, -1, -9], [-9, -1, -9]]";
+    for (shape, material) in [
+        (mesh(0, true, "auto"), "lambertian: { albedo: 0.8 }"),
+        (mesh(0, true, "auto"), "dielectric: { ior: 1.3 }"),
+        (quad.to_owned(), "mirror: { reflectance: 0.9 }"),
+    ] {
+        let scene = text(
+            camera,
+            &format!("ball: {{ {material} }}"),
+            &format!("{shape}, material: ball }}"),
+            "path_bits: 6, depths: [{ bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }]",
+        );
+        let scene = read(&scene, &[]);
+        let [real, fixed] = [Model::Real, Model::Fixed].map(|model| seen(&scene, model));
+        let error = distance(&real, &fixed) / mean(&real).max(0.01);
+        assert!(error < 0.02, "{material}: {error}");
+    }
+}
+
+/// At grazing angles the rounded direction of a reflection may be behind the surface. Glass of a high index
+/// would then refract a path once and not twice, beyond its bound.
+#[test]
+fn reflections_in_glass_do_not_enter_it() {
+    let scene = text(
+        "eye: [0, 0, 5], target: [0, 0, 0], vfov: 24",
+        "ball: { dielectric: { ior: 2 } }",
+        &format!("{}, material: ball }}", mesh(1, true, "auto")),
+        "path_bits: 9, depths: [{ bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }]",
+    );
+    for fraction in [8, 12, 16] {
+        let few = [
+            format!("precision.fraction={fraction}"),
+            "film={ width: 24, height: 24 }".to_owned(),
+        ];
+        let scene = read(&scene, &few.each_ref().map(String::as_str));
+        let brightest = seen(&scene, Model::Fixed).into_iter().flatten();
+        assert!(brightest.fold(0.0, f64::max) <= 1.01, "{fraction}");
+    }
+}
+
+/// The lamp of each face is in the plane of the others, up to rounding: none lights another.
+#[test]
+fn faces_of_one_plane_do_not_light_each_other() {
+    let name = format!("qrt-cushion-{}.obj", std::process::id());
+    let mut cushion = String::new();
+    for corner in 0..16 {
+        let [x, y] = [corner % 4, corner / 4].map(f64::from);
+        let normal = format!("vn {} {} 0.6\n", 0.8 * x - 1.2, 0.8 * y - 1.2);
+        cushion += &[format!("v {} {} 0\n", x / 3.0, y / 3.0), normal].concat();
+    }
+    for cell in [1, 2, 3, 5, 6, 7, 9, 10, 11] {
+        for [b, c] in [[cell + 1, cell + 5], [cell + 5, cell + 4]] {
+            cushion += &[
+                "f ".to_owned(),
+                format!("{cell}//{cell} {b}//{b} {c}//{c}\n"),
+            ]
+            .concat();
+        }
+    }
+    std::fs::write(std::env::temp_dir().join(&name), cushion).unwrap();
+    let far = "rotate: [11, 17, 13.7], translate: [3000, 3000, 0]";
+    let scene = text(
+        "eye: [3000.5, 3000.4, 3], target: [3000.5, 3000.4, 0], vfov: 30",
+        "lamp: { emitter: { radiance: 1, albedo: 0.9 } }",
+        &format!("mesh: {{ obj: {name}, material: lamp, {far} }}"),
+        "path_bits: 14, depths: [{ bits: [12, 12] }, { bits: [12, 12], light: [12, 12] }]",
+    );
+    let scene = scene.replace("sky: { horizon: 1, zenith: 0.2 }\n", "");
+    for lights in ["auto", "mis"] {
+        let lights = format!("sampling.lights={lights}");
+        let lit = seen(&read(&scene, &[&lights]), Model::Real);
+        let unlit = seen(&read(&scene, &["sampling.lights=none"]), Model::Real);
+        assert!(distance(&lit, &unlit) < 1e-6, "{lights}");
+    }
+}

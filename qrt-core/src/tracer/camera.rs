@@ -33,6 +33,17 @@ pub struct CameraStage {
     pub from: u32,
 }
 
+/// True if rays through the corners of the film, one unit long along the axis, may be longer than 1.8:
+/// numbers that are known as components of unit vectors have room for 2.
+pub(super) fn has_long_rays(camera: &Camera, film: Film) -> bool {
+    let Camera::Perspective(camera) = camera else {
+        return false;
+    };
+    let y = libm::tan(0.5 * camera.vfov.to_radians());
+    let x = y * f64::from(film.width) / f64::from(film.height);
+    1.0 + x * x + y * y > 1.8 * 1.8
+}
+
 /// A thin lens in stage units. A ray starts at a point `p` of the disc around the eye, and goes towards
 /// the point at the distance `f` where all rays of its place on the film meet: with the direction `D` of
 /// the pinhole's ray, whose forward part is 1, its direction is `D - p / f`.

@@ -2,7 +2,7 @@
 
 use super::arith::Segment;
 use super::ball_ray::{Round, Tangents};
-use super::bsdf::{Bent, Scattering, Vertex};
+use super::bsdf::{Scattering, SmoothHit, Vertex};
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
 use super::ray::{NearestSearch, Ray, Start, point_at};
@@ -98,7 +98,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             bitangent: [zero; 3],
             normal: [zero; 3],
             cos_theta: zero,
-            bent: None,
+            smooth: None,
             front: alive,
             surface,
             tint: surface,
@@ -161,11 +161,8 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             });
             vertex.normal = found.normal;
             vertex.cos_theta = found.cos_theta;
-            vertex.bent = Some(Bent {
-                is: found.is,
-                face_normal,
-                transmits: smooth.transmits(),
-            });
+            let is = found.is;
+            vertex.smooth = Some(SmoothHit { is, face_normal });
             cx.leave();
         }
         let mut known = None;
@@ -220,7 +217,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         }
         let at = &vertex;
         let scattered = cx.apart(Scattering { scatter, at });
-        if let Some(stays) = vertex.stays(cx, &scattered.direction) {
+        if let Some(stays) = vertex.stays(cx, &scattered.direction, scattered.crosses) {
             alive = cx.and(alive, stays);
         }
         let origin = match origin {
@@ -262,11 +259,11 @@ fn frame<A: Arith, const C: usize>(
     vertex: &Vertex<A>,
 ) -> [A::Real; 9] {
     let mut row = cx.rows(&stage.frames, face);
-    let computed = match (round, &vertex.bent) {
+    let computed = match (round, &vertex.smooth) {
         (None, None) => return row,
         (Some(round), None) => round.is,
-        (None, Some(bent)) => bent.is,
-        (Some(round), Some(bent)) => cx.or(round.is, bent.is),
+        (None, Some(smooth)) => smooth.is,
+        (Some(round), Some(smooth)) => cx.or(round.is, smooth.is),
     };
     let normal = &vertex.normal;
     let own = cx.apart(Tangents { normal }).into_iter().flatten();

@@ -47,7 +47,7 @@ impl<A: Arith, N: NearestSearch<A>, const C: usize> Work<A> for Lighting<'_, A, 
         let both = math!(cx, rise * fall);
         // If `both` is 0, the divisors may be 0 too: coarse numbers soon are.
         let mut wanted = math!(cx, at.alive && lit && 0.0 < both);
-        if let Some(stays) = at.stays(cx, &point.to) {
+        if let Some(stays) = at.stays(cx, &point.to, None) {
             wanted = cx.and(wanted, stays);
         }
         if !cx.any(wanted) {

@@ -3,16 +3,17 @@
 //! The normal at a hit `p` is `n = m + G (p - c)`, with the face's centre `c`, the normal `m` there and a
 //! matrix `G` by face, over its length: an affine function that has the given normals at the corners.
 //!
-//! The face itself stays flat. Where it is met, which side is seen and in which directions a path may go
-//! on follow from the face's own normal:
+//! The face itself stays flat. Its own normal decides where a ray meets it, which side is seen, and where
+//! the path may go on:
 //!
 //! * A viewer behind the interpolated normal, as there are at silhouettes, sees the face's own normal.
 //! * A path whose next direction is on one side of the face and on the other side of the normal ends
-//!   there. So does the light of a lamp. Without this rule light would leak into solids. PBRT 3 has the
-//!   same rule (`BSDF::f`).
+//!   there, and so does the light of a lamp. Without this rule light would leak into solids. PBRT 3 has
+//!   the same rule for materials that are not mirrors or glass (`BSDF::f`).
 //!
-//! A sampled direction thus weighs as much as on a flat face, or nothing, and no bound on a path's colour
-//! grows. The light of a point on a lamp is bounded without the cosine at the surface.
+//! A sampled direction thus weighs as much as on a flat face, or nothing. The light of a point on a lamp is
+//! bounded without the cosine at the surface, so with sampled lamps the bound on a path's colour may be
+//! greater than that of flat faces.
 
 use super::geometry::StageGeometry;
 use super::vector::{self, Vector};
@@ -30,20 +31,14 @@ pub(crate) struct SmoothStage {
     rows: Vec<[f64; 15]>,
     /// A bound on the distance along each axis of a hit on a smooth face from the face's centre.
     reach: f64,
-    /// True if paths may go on beyond a smooth face.
-    transmits: bool,
 }
 
 /// A bound on the rounding of a hit, in stage units.
 const SLACK: f64 = 1.0 / 32.0;
 
 impl SmoothStage {
-    /// Prepares the normals of `faces`; `None` if there are no smooth faces. `transmits` is by face.
-    pub(super) fn new(
-        geometry: &StageGeometry,
-        faces: &[SmoothFace],
-        transmits: &[bool],
-    ) -> Option<Self> {
+    /// Prepares the normals of `faces`; `None` if there are no smooth faces.
+    pub(super) fn new(geometry: &StageGeometry, faces: &[SmoothFace]) -> Option<Self> {
         if faces.is_empty() {
             return None;
         }
@@ -62,7 +57,6 @@ impl SmoothStage {
             is_smooth,
             rows,
             reach: reach + SLACK,
-            transmits: faces.iter().any(|face| transmits[face.polygon]),
         })
     }
 
@@ -70,14 +64,9 @@ impl SmoothStage {
     pub(super) fn is_smooth(&self, face: u32) -> bool {
         self.is_smooth[face as usize] == 1
     }
-
-    /// True if paths may go on beyond a smooth face.
-    pub(super) fn transmits(&self) -> bool {
-        self.transmits
-    }
 }
 
-/// A hit on `face`, at the point `point`, as it is on a flat face.
+/// A hit on `face` at `point`, with the face's own normal.
 pub(super) struct FlatHit<'a, A: Arith> {
     pub(super) face: A::Index,
     pub(super) point: Vector<A>,

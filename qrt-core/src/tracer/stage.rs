@@ -15,7 +15,7 @@ use super::sky::SkyStage;
 use super::smooth::SmoothStage;
 use super::{Arith, bound};
 use glam::DVec3;
-use qrt_scene::valid::{Surface, ValidScene};
+use qrt_scene::valid::{Scatter, Surface, ValidScene};
 use qrt_scene::{DepthSampling, Material};
 use std::collections::HashSet;
 
@@ -120,7 +120,7 @@ impl<const C: usize> Stage<C> {
         let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
         let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
         let transmits: Vec<bool> = surface_of.iter().map(transmits).collect();
-        let smooth = SmoothStage::new(&geometry, scene.smooth_faces(), &transmits);
+        let smooth = SmoothStage::new(&geometry, scene.smooth_faces());
         let starts = geometry.staged(&starts);
         let (places, lamps) = if lit {
             let number = geometry.emitters as usize;
@@ -165,7 +165,12 @@ impl<const C: usize> Stage<C> {
         }
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles)
             || sky.as_ref().is_some_and(SkyStage::asks_for_directions)
-            || !geometry.balls.is_empty();
+            || !geometry.balls.is_empty()
+            || smooth.is_some()
+            || surfaces
+                .iter()
+                .any(|s| matches!(s.scatter, Scatter::Mirror(_)))
+                && camera::has_long_rays(&written.camera, written.film);
         let refraction = Refraction::new(&geometry, &surfaces, &surface_of, &starts);
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {

@@ -104,15 +104,22 @@ fn first_hits(scene: &ValidScene, crop: [u32; 4]) -> Result<Vec<Option<FirstHit>
         for (ray, met) in rays.iter().zip(real.nearest(&rays)) {
             hits.push(met.and_then(|met| {
                 let face = met.face as usize;
+                let [start, direction] = [ray.origin, ray.direction].map(DVec3::from_array);
+                let point = start + direction * met.distance;
                 let normal = if let Some(Polygon { vertices, .. }) = scene.polygons().get(face) {
                     let [v0, v1, v2, _] = *vertices;
-                    (v1 - v0).cross(v2 - v0).normalize()
+                    let own = (v1 - v0).cross(v2 - v0).normalize();
+                    let smooth = scene.smooth_face(face).map(|smooth| {
+                        let corners = &geometry.corners[face];
+                        smooth.normal_at([corners[0], corners[1], corners[2]], point)
+                    });
+                    // As in the picture, a viewer behind the interpolated normal sees the face's own.
+                    let seen = |normal: &DVec3| normal.dot(direction) * own.dot(direction) > 0.0;
+                    smooth.filter(seen).unwrap_or(own)
                 } else {
                     let ball = geometry.balls.get(face - scene.polygons().len())?;
-                    let [start, way] = [ray.origin, ray.direction].map(DVec3::from_array);
-                    (start + way * met.distance - ball.centre).normalize()
+                    (point - ball.centre).normalize()
                 };
-                let direction = DVec3::from_array(ray.direction);
                 Some(FirstHit {
                     distance: met.distance * direction.length() / unit,
                     normal: if normal.dot(direction) > 0.0 {

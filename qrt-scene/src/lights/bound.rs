@@ -36,7 +36,7 @@ impl Reached {
 /// Returns bounds over all points `x` of the polygons `surface` and all points `y` of the polygon
 /// `lamp`. Light may arrive on either side of the surface; the lamp emits on its front.
 ///
-/// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front. `is_smooth` tells that the
+/// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front. `is_smooth` is true if the
 /// surface is shaded by interpolated normals: `n` may then have any direction.
 pub fn strongest(surface: &[&[DVec3]], is_smooth: bool, lamp: &[DVec3]) -> Reached {
     Reached {

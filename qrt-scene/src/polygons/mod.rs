@@ -10,7 +10,7 @@ mod overlap;
 mod plane;
 mod solid;
 
-pub(crate) use normals::{mean_normals, unit_normal};
+pub(crate) use normals::{MOST_PAIRS, mean_normals, unit_normal};
 pub(crate) use overlap::overlap;
 pub use overlap::{Outlines, fill_once};
 pub use plane::{Overlap, first_overlap};

@@ -3,19 +3,21 @@
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Maximum number of pairs of triangles with a common corner that are compared.
-const MOST_PAIRS: u64 = 1 << 28;
+/// Maximum number of pairs of triangles with a common corner that are compared for a scene.
+pub(crate) const MOST_PAIRS: u64 = 1 << 28;
 
 /// Returns the unit normals of the corners of each of the `triangles`.
 ///
 /// The normal of a corner is the mean over the triangles that share the corner and for which `joined`
 /// holds, weighted by their angles there (Thürmer & Wüthrich, Computing Vertex Normals from Polygonal
-/// Facets, 1998). The arguments of `joined` are the numbers of two triangles and their unit normals.
+/// Facets, 1998). The arguments of `joined` are the numbers of two triangles and their unit normals. The
+/// number of compared pairs is taken from `pairs_left`.
 ///
 /// # Errors
-/// The greatest number of triangles at one corner, if too many pairs would have to be compared.
+/// The greatest number of triangles at one corner, if too few pairs are left.
 pub(crate) fn mean_normals(
     triangles: &[[DVec3; 3]],
+    pairs_left: &mut u64,
     joined: impl Fn([usize; 2], [DVec3; 2]) -> bool,
 ) -> Result<Vec<[DVec3; 3]>, usize> {
     let own: Vec<DVec3> = triangles.iter().map(unit_normal).collect();
@@ -36,9 +38,10 @@ pub(crate) fn mean_normals(
     let shared = || order.chunk_by(|&a, &b| point(a) == point(b));
     let sizes = shared().map(<[u32]>::len);
     let pairs: u64 = sizes.clone().map(|size| (size as u64).pow(2)).sum();
-    if pairs > MOST_PAIRS {
-        return Err(sizes.max().unwrap_or(0));
-    }
+    *pairs_left = match pairs_left.checked_sub(pairs) {
+        Some(left) => left,
+        None => return Err(sizes.max().unwrap_or(0)),
+    };
     let mut normals: Vec<[DVec3; 3]> = own.iter().map(|&own| [own; 3]).collect();
     for here in shared() {
         let weights: Vec<f64> = here
@@ -82,7 +85,7 @@ fn angle(triangle: &[DVec3; 3], corner: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::mean_normals;
+    use super::{MOST_PAIRS, mean_normals};
     use glam::DVec3;
 
     /// The twelve triangles of a cube, whose diagonals end at different corners.
@@ -111,7 +114,7 @@ mod tests {
     #[test]
     fn corners_of_a_cube_look_away_from_its_centre() {
         let cube = cube();
-        let normals = mean_normals(&cube, |_, _| true).unwrap();
+        let normals = mean_normals(&cube, &mut { MOST_PAIRS }, |_, _| true).unwrap();
         for (triangle, normals) in cube.iter().zip(&normals) {
             for (corner, normal) in triangle.iter().zip(normals) {
                 // Weighted by angles, both triangles of a face count as the face.
@@ -119,7 +122,7 @@ mod tests {
                 assert!((away - *normal).length() < 1e-12, "{corner} {normal}");
             }
         }
-        let sharp = mean_normals(&cube, |_, [a, b]| a.dot(b) > 0.5).unwrap();
+        let sharp = mean_normals(&cube, &mut { MOST_PAIRS }, |_, [a, b]| a.dot(b) > 0.5).unwrap();
         for (triangle, normals) in cube.iter().zip(&sharp) {
             assert_eq!(*normals, [super::unit_normal(triangle); 3]);
         }
@@ -133,8 +136,11 @@ mod tests {
                 .map(|k| [DVec3::ZERO, rim(k), rim(k + 1)])
                 .collect()
         };
-        assert_eq!(mean_normals(&fan(20_000), |_, _| true), Err(20_000));
-        let normals = mean_normals(&fan(2_000), |_, _| true).unwrap();
+        assert_eq!(
+            mean_normals(&fan(20_000), &mut { MOST_PAIRS }, |_, _| true),
+            Err(20_000)
+        );
+        let normals = mean_normals(&fan(2_000), &mut { MOST_PAIRS }, |_, _| true).unwrap();
         assert!(normals.iter().all(|normals| *normals == [DVec3::Z; 3]));
     }
 }

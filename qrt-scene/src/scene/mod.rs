@@ -387,8 +387,8 @@ record! {
     /// The name of a material for all of it; without one, the file's materials. A PLY file has
     /// none.
     pub material: Option<String> = Maybe(Text), or None;
-    /// Smooth shading. `auto`, the default: by the normals of the file, and in an OBJ file without them by
-    /// its smoothing groups (`s`). Degrees: by the mean normal of the faces around a corner that make at
+    /// Smooth shading. `auto`, the default: by the normals of the file, and for faces of an OBJ file without
+    /// them by their smoothing group (`s`). Degrees: by the mean normal of the faces around a corner that make at
     /// most this angle with the face; 0 is flat.
     pub smooth: Option<f64> = AutoOr(number(0.0, 180.0)), or None;
     /// The factor of its size; default 1.

@@ -3,7 +3,7 @@
 //! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
 //! the origin, is treated like any other.
 
-use crate::polygons::{mean_normals, unit_normal};
+use crate::polygons::{MOST_PAIRS, mean_normals, unit_normal};
 use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
@@ -72,6 +72,7 @@ pub(super) fn polygons(
         names,
         out: vec![],
         smooth: vec![],
+        pairs_left: MOST_PAIRS,
         balls: vec![],
         spheres: HashSet::new(),
         files: BTreeSet::new(),
@@ -136,6 +137,8 @@ struct Build<'a> {
     out: Vec<Polygon>,
     /// The polygons so far that are not flat.
     smooth: Vec<SmoothFace>,
+    /// Number of pairs of triangles that may still be compared for means of normals.
+    pairs_left: u64,
     balls: Vec<Ball>,
     /// Centres and radii of the spheres so far, by their bits.
     spheres: HashSet<[u64; 4]>,
@@ -318,9 +321,10 @@ impl<'a> Build<'a> {
             } else if triangle_fault(&vertices).is_some() {
                 flat.push(index);
             } else {
-                if let Some(normals) = normals.get(index) {
+                let is_black = matches!(self.surfaces[surface as usize].scatter, Scatter::Black);
+                if let Some(normals) = normals.get(index).filter(|_| !is_black) {
                     let turned = normals.map(|normal| transform.turn(normal));
-                    let normals = bent(&vertices, turned);
+                    let normals = corner_normals(&vertices, turned);
                     let polygon = self.out.len();
                     self.smooth
                         .extend(normals.map(|normals| SmoothFace { polygon, normals }));
@@ -361,7 +365,9 @@ impl<'a> Build<'a> {
         // Rounding may turn faces that make exactly this angle.
         let least = libm::cos(degrees.to_radians()) - 1e-9;
         let triangles: Vec<[DVec3; 3]> = read.faces.iter().map(|face| face.vertices).collect();
-        match mean_normals(&triangles, |_, [a, b]| a.dot(b) >= least) {
+        match mean_normals(&triangles, &mut self.pairs_left, |_, [a, b]| {
+            a.dot(b) >= least
+        }) {
             Ok(normals) => Some(Cow::Owned(normals)),
             Err(count) => {
                 self.problems
@@ -449,28 +455,29 @@ fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
 
 /// Returns the normals of a triangle's corners as its shading uses them: on the side of its front, and
 /// within 75.5 degrees of its own normal. `None` if all are its own up to rounding: it is flat.
-fn bent(vertices: &[DVec3; 3], normals: [DVec3; 3]) -> Option<[DVec3; 3]> {
+fn corner_normals(vertices: &[DVec3; 3], normals: [DVec3; 3]) -> Option<[DVec3; 3]> {
     let own = unit_normal(vertices);
-    if normals
-        .iter()
-        .all(|normal| normal.cross(own).length() <= FLAT)
-    {
+    let [a, b, c] = normals;
+    // A file may have all normals on the other side.
+    let side = if (a + b + c).dot(own) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let normals = normals.map(|normal| normal * side);
+    let is_own = |normal: &DVec3| normal.dot(own) > 0.0 && normal.cross(own).length() <= FLAT;
+    if normals.iter().all(is_own) {
         return None;
     }
     Some(normals.map(|normal| {
-        let front = if normal.dot(own) < 0.0 {
-            -normal
-        } else {
-            normal
-        };
-        let across = front - own * front.dot(own);
-        if front.dot(own) >= LEAST_COSINE {
-            front
-        } else {
-            // `across` is longer than 0: the angle is at least 75 degrees.
-            let sine = (1.0 - LEAST_COSINE * LEAST_COSINE).sqrt();
-            own * LEAST_COSINE + across.normalize_or_zero() * sine
+        let cosine = normal.dot(own);
+        if cosine >= LEAST_COSINE {
+            return normal;
         }
+        let across = (normal - own * cosine).normalize_or_zero();
+        let sine = (1.0 - LEAST_COSINE * LEAST_COSINE).sqrt();
+        // A normal that is opposite to the face's own has no direction to lean to.
+        (own * LEAST_COSINE + across * sine).normalize()
     }))
 }
 

@@ -154,9 +154,20 @@ pub const LEAST_NORMAL: f64 = geometry::LEAST_COSINE;
 pub struct SmoothFace {
     /// The triangle, as an index into [`ValidScene::polygons`].
     pub polygon: usize,
-    /// The unit normals at its corners. Their dot products with the normal of the triangle's front are at
-    /// least [`LEAST_NORMAL`].
+    /// The unit normals at its corners, on the side of the triangle's front. Their dot products with the
+    /// triangle's own normal are at least [`LEAST_NORMAL`].
     pub normals: [DVec3; 3],
+}
+
+impl SmoothFace {
+    /// The unit normal at a point of the triangle, given its corners in the point's units.
+    pub fn normal_at(&self, [a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
+        let across = (b - a).cross(c - a);
+        let share = |from: DVec3, to: DVec3| across.dot((to - from).cross(point - from));
+        let [first, second, third] = self.normals;
+        let sum = first * share(b, c) + second * share(c, a) + third * share(a, b);
+        sum.normalize_or(across.normalize_or_zero())
+    }
 }
 
 /// A sphere in world space.
@@ -219,6 +230,13 @@ impl ValidScene {
     /// The polygons that are not flat, in the order of [`ValidScene::polygons`].
     pub fn smooth_faces(&self) -> &[SmoothFace] {
         &self.smooth
+    }
+    /// The normals of polygon number `polygon`, unless it is flat.
+    pub fn smooth_face(&self, polygon: usize) -> Option<&SmoothFace> {
+        let found = self
+            .smooth
+            .binary_search_by_key(&polygon, |face| face.polygon);
+        found.ok().map(|place| &self.smooth[place])
     }
     /// All spheres of the scene.
     pub fn balls(&self) -> &[Ball] {

@@ -90,7 +90,9 @@ impl<const C: usize> CustomLobe<C> {
             // The density of the depth's map. It is not used if the lobe samples by its own map.
             sample.square.map.own_density(cx, &incoming)
         };
+        let asks = sample.at.smooth.is_some();
         Scattered {
+            crosses: asks.then(|| math!(cx, incoming[2] < 0.0)),
             direction,
             weight: channels(&values),
             density,

@@ -70,6 +70,7 @@ impl DielectricLobe {
             [math!(cx, select(reflects, 1.0, eta_squared)); C]
         };
         Scattered {
+            crosses: at.smooth.is_some().then(|| cx.not(reflects)),
             direction,
             weight,
             density: cx.real(0.0),

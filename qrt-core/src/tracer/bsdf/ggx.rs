@@ -77,6 +77,7 @@ impl GgxLobe {
             sample.square.map.own_density(cx, &incoming)
         };
         Scattered {
+            crosses: None,
             direction,
             weight,
             density,

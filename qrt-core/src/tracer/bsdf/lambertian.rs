@@ -25,6 +25,7 @@ pub(super) fn scatter<A: Arith, const C: usize>(
         cx.real(0.0)
     };
     Scattered {
+        crosses: None,
         direction,
         weight,
         density,

@@ -39,6 +39,7 @@ pub(super) fn scatter<A: Arith, const C: usize>(
 ) -> Scattered<A, C> {
     let direction = vector!(cx, -mirror(sample.at.arriving, sample.at.normal));
     Scattered {
+        crosses: None,
         direction: vector::unit(cx, &direction),
         weight: sample.tint,
         density: cx.real(0.0),

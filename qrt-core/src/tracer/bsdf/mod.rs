@@ -18,7 +18,7 @@ mod tests;
 mod vertex;
 
 pub(crate) use emitter::Emitters;
-pub(crate) use vertex::{Bent, Vertex, members};
+pub(crate) use vertex::{SmoothHit, Vertex, members};
 
 use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;
@@ -510,6 +510,7 @@ impl<const C: usize> ScatterStage<C> {
             choose(cx, &mut chosen, mask, new);
         }
         chosen.unwrap_or(Scattered {
+            crosses: None,
             direction: at.arriving,
             weight: [zero; C],
             density: zero,
@@ -550,7 +551,15 @@ fn choose<A: Arith, T: OfLobe<A>>(cx: &mut A, chosen: &mut Option<T>, mask: A::B
 impl<A: Arith, const C: usize> OfLobe<A> for Scattered<A, C> {
     #[inline(always)]
     fn select(self, cx: &mut A, mask: A::Bool, other: Self) -> Self {
+        let crosses = match (self.crosses, other.crosses) {
+            (None, None) => None,
+            (own, other) => {
+                let stays = cx.truth(false);
+                Some(cx.select_truth(mask, own.unwrap_or(stays), other.unwrap_or(stays)))
+            }
+        };
         Self {
+            crosses,
             direction: vector::select(cx, mask, &self.direction, &other.direction),
             weight: vector::select(cx, mask, &self.weight, &other.weight),
             density: cx.select(mask, self.density, other.density),

@@ -192,6 +192,7 @@ impl<const C: usize> PhongLobe<C> {
         };
         let direction = to_scene(cx, sample.at, &incoming);
         Scattered {
+            crosses: None,
             direction,
             weight,
             density,

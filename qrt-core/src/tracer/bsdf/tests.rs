@@ -52,7 +52,7 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
             bitangent: [0.0, 1.0, 0.0],
             normal: [0.0, 0.0, 1.0],
             cos_theta: arriving[2],
-            bent: None,
+            smooth: None,
             front: arriving[2] < 0.0,
             surface: 0,
             tint: 0,

@@ -13,8 +13,8 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) normal: Vector<A>,
     /// The dot product of the arriving direction and `normal`.
     pub(crate) cos_theta: A::Real,
-    /// The hit as one on a smooth face, in a scene that has smooth faces.
-    pub(crate) bent: Option<Bent<A>>,
+    /// The face's own normal, in a scene that has smooth faces.
+    pub(crate) smooth: Option<SmoothHit<A>>,
     /// True if the viewer sees the front of the surface.
     pub(crate) front: A::Bool,
     pub(crate) surface: A::Index,
@@ -32,41 +32,46 @@ impl<A: Arith> Vertex<A> {
         self.bitangent = [bx, by, bz];
     }
 
-    /// True unless `direction` leaves a smooth face on one side, and its normal on the other.
+    /// True unless `direction` is on one side of a smooth face and on the other side of its normal.
+    /// `None` in a scene without smooth faces. `crosses` is true for directions beyond the normal's plane.
     #[inline(always)]
-    pub(crate) fn stays(&self, cx: &mut A, direction: &Vector<A>) -> Option<A::Bool> {
-        let bent = self.bent.as_ref()?;
-        Some(bent.stays(cx, self, direction))
+    pub(crate) fn stays(
+        &self,
+        cx: &mut A,
+        direction: &Vector<A>,
+        crosses: Option<A::Bool>,
+    ) -> Option<A::Bool> {
+        let &SmoothHit { is, face_normal } = self.smooth.as_ref()?;
+        let rise = math!(cx, dot(*direction, face_normal));
+        let above = match crosses {
+            None => self.front,
+            Some(crosses) => math!(cx, select_truth(crosses, !self.front, self.front)),
+        };
+        // A lamp that is in the face's plane, up to rounding, does not light the face.
+        Some(math!(
+            cx,
+            !is || select_truth(above, real(IN_PLANE) < rise, rise < real(-IN_PLANE))
+        ))
     }
 }
 
+/// Greatest height over a smooth face's plane of a direction that counts as within the plane, in stage
+/// units: above the rounding that bounds on the light of lamps allow.
+const IN_PLANE: f64 = 4e-9;
+
 /// A hit in a scene that has smooth faces.
-pub(crate) struct Bent<A: Arith> {
-    /// True if the hit is on a smooth face.
+pub(crate) struct SmoothHit<A: Arith> {
+    /// True if the face is smooth.
     pub(crate) is: A::Bool,
     /// The face's own normal.
     pub(crate) face_normal: Vector<A>,
-    /// True if paths may go on beyond a smooth face.
-    pub(crate) transmits: bool,
-}
-
-impl<A: Arith> Bent<A> {
-    /// True unless `direction` leaves `vertex` on different sides of its face and of its normal.
-    #[inline(always)]
-    fn stays(&self, cx: &mut A, vertex: &Vertex<A>, direction: &Vector<A>) -> A::Bool {
-        let rise = math!(cx, dot(*direction, self.face_normal));
-        let above = if self.transmits {
-            let rise = math!(cx, dot(*direction, vertex.normal));
-            math!(cx, 0.0 < rise)
-        } else {
-            vertex.front
-        };
-        math!(cx, !self.is || select_truth(above, 0.0 < rise, rise < 0.0))
-    }
 }
 
 /// A sampled direction, in the scene's frame, and its weight per channel.
 pub(crate) struct Scattered<A: Arith, const C: usize> {
+    /// True if the direction is beyond the surface; `None` if it never is, or in a scene without smooth
+    /// faces.
+    pub(crate) crosses: Option<A::Bool>,
     pub(crate) direction: Vector<A>,
     pub(crate) weight: [A::Real; C],
     /// The density with which its part of the lobe samples the direction. It is in units of `1 / pi`

@@ -221,10 +221,12 @@ impl<'a> Reader<'a> {
         let vertices = self.data(&positions, part)?;
         let normals = primitive.get(&Semantic::Normals);
         let normals = match normals.filter(|_| self.wanted.normals) {
-            Some(normals) if (normals.data_type(), normals.dimensions()) != FLOATS => {
-                return Err(fail(MeshFile::GltfType {
-                    attribute: "NORMAL",
-                }));
+            Some(normals)
+                if (normals.data_type(), normals.dimensions()) != FLOATS
+                    || normals.sparse().is_some() =>
+            {
+                self.note(MeshFile::GltfNormals, || part_name(part));
+                None
             }
             Some(normals) => Some(self.data(&normals, part)?),
             None => None,

@@ -2,7 +2,7 @@
 //! area and copies.
 
 use super::polygon;
-use crate::polygons::{mean_normals, unit_normal};
+use crate::polygons::{MOST_PAIRS, mean_normals, unit_normal};
 use crate::scene::meshes::{FileError, FileFace, FileMesh, FilePlace};
 use crate::syntax::MeshFile;
 use crate::valid::triangle_fault;
@@ -159,7 +159,7 @@ fn corner_normals(faces: &[FileFace], shading: &[Shading]) -> Result<Vec<[DVec3;
     let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| face.vertices).collect();
     let is_grouped = |shading: &Shading| matches!(shading, Shading::OfGroup(_));
     let means = if shading.iter().any(is_grouped) {
-        mean_normals(&triangles, |[face, other], _| {
+        mean_normals(&triangles, &mut { MOST_PAIRS }, |[face, other], _| {
             is_grouped(&of(face)) && of(face) == of(other)
         })?
     } else {

@@ -5,14 +5,13 @@ use crate::scene::meshes::{FilePlace, Wanted};
 use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
 use std::borrow::Cow;
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
 use std::io::{self, Read};
 use std::path::Path;
 
-const READ: &str = "v vt vn f s mtllib usemtl";
+const READ: &str = "v vt vn f o s mtllib usemtl";
 /// Statements that have no part in a mesh's shape.
-const IGNORED: &str =
-    "o g mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
+const IGNORED: &str = "g mg vp bevel c_interp d_interp lod shadow_obj trace_obj usemap maplib end";
 /// Statements whose shapes are left out: lines, points, curves and curved surfaces.
 const SHAPELESS: &str =
     "l p cstype deg bmat step curv curv2 surf parm trim hole scrv sp con ctech stech call";
@@ -42,8 +41,12 @@ pub(super) struct Scanner<'a> {
     pub(super) normals: Vec<DVec3>,
     /// By corner of the faces that name normals, in order: the index of its normal in `normals`.
     pub(super) corner_normals: Vec<Option<usize>>,
-    /// The smoothing group of the next faces; 0 for none.
-    group: u32,
+    /// The smoothing group of the next faces, as the file calls it.
+    group: Option<String>,
+    /// Number of objects so far. Faces of two objects are never of one group.
+    objects: u32,
+    /// The number of each group of an object.
+    groups: HashMap<(u32, String), u32>,
     /// The first statement whose shape is left out, and its line.
     pub(super) shapeless: Option<(String, usize)>,
     /// Names after `usemtl`, with their lines.
@@ -105,7 +108,9 @@ impl<'a> Scanner<'a> {
             faces: Vec::new(),
             normals: Vec::new(),
             corner_normals: Vec::new(),
-            group: 0,
+            group: None,
+            objects: 0,
+            groups: HashMap::new(),
             shapeless: None,
             uses: Vec::new(),
             libraries: Vec::new(),
@@ -121,6 +126,7 @@ impl<'a> Scanner<'a> {
             "vt" => self.counts[1] += 1,
             "vn" => self.normal(rest),
             "s" => self.group = group(rest),
+            "o" => self.objects += 1,
             "f" | "fo" => self.face(line, rest)?,
             "mtllib" | "usemtl" if !self.wanted.materials => {}
             "mtllib" => {
@@ -203,9 +209,13 @@ impl<'a> Scanner<'a> {
         if !named {
             self.corner_normals.truncate(first);
         }
-        let normals = match self.group {
+        let normals = match &self.group {
             _ if named => OfFace::Corners,
-            group if group > 0 && self.wanted.normals => OfFace::Group(group),
+            Some(group) if self.wanted.normals => {
+                let new = self.groups.len() as u32;
+                let group = (self.objects, group.clone());
+                OfFace::Group(*self.groups.entry(group).or_insert(new))
+            }
             _ => OfFace::None,
         };
         self.faces.push(Face {
@@ -283,8 +293,10 @@ impl<'a> Scanner<'a> {
     }
 }
 
-/// The number of a smoothing group; 0 for `off` and for anything that is no number.
-fn group(rest: &str) -> u32 {
-    let first = tokens(rest).next();
-    first.and_then(|word| word.parse().ok()).unwrap_or(0)
+/// The name of a smoothing group, usually a number; `None` for `off` and 0.
+fn group(rest: &str) -> Option<String> {
+    let name = tokens(rest)
+        .next()
+        .filter(|name| !matches!(*name, "off" | "0"));
+    name.map(str::to_owned)
 }

@@ -71,7 +71,7 @@ problems! {
             { format!("{} in the mesh twice, and left out once", triangles(*count)) }
             help "remove the copies with the tool that made the mesh";
         ManyAround { count: usize } = MESH_TOO_MANY
-            "{count} triangles meet at one corner: too many for the mean of their normals"
+            "up to {count} triangles meet at a corner: means of their normals take too many comparisons"
             help "export the mesh with normals, or write `smooth: 0`";
         Overlarge = OBJ_NOT_FINITE "this face is too large: its area is not a finite number"
             help "scale the mesh in the file, and back in the scene";
@@ -139,6 +139,8 @@ problems! {
         GltfDataUri = GLTF_DATA "the `uri` is not `data:MEDIA;base64,...`";
         GltfNoMaterial = OBJ_NO_MATERIAL "the primitive has no material"
             help "give the mesh a `material` in the scene, or the primitive one in the file";
+        GltfNormals = GLTF_POSE "`NORMAL` is left out: these normals are not plain vectors of 3 floats"
+            help "export the mesh with such normals, or write an angle: `smooth: 30`";
         GltfSkin = GLTF_POSE "`skin` is left out: the mesh has the pose that it was made in"
             help "export the mesh with the pose applied";
         GltfMorph = GLTF_POSE "`targets` are left out: the mesh has its basic shape"

@@ -128,7 +128,7 @@ problems! {
             { format!("with this mesh the scene has {triangles} faces; the limit is {most}") }
             help "use a coarser mesh, or fewer copies of it";
         ManyAround { count: usize } = MESH_TOO_MANY
-            "{count} triangles meet at one corner: too many for the mean of their normals"
+            "up to {count} triangles meet at a corner: means of their normals take too many comparisons"
             help "export the mesh with normals and write `smooth: auto`, or `smooth: 0`";
         TooBright { material: String, radiance: f64, most: f64 } = RADIANCE
             { format!("the radiance {} of `{material}` is too large", number(*radiance)) }

@@ -41,7 +41,7 @@ fn vertex(outgoing: Direction) -> Vertex<Scalar> {
         bitangent: [0.0, 1.0, 0.0],
         normal: [0.0, 0.0, 1.0],
         cos_theta: arriving[2],
-        bent: None,
+        smooth: None,
         front: true,
         surface: SURFACE,
         tint: SURFACE,

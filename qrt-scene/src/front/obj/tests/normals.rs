@@ -29,7 +29,7 @@ fn a_mesh_without_normals_and_groups_is_flat() {
     for faces in [
         "f 1 3 4 2\nf 3 5 6 4\n",
         "s off\nf 1 3 4 2\ns 0\nf 3 5 6 4\n",
-        "s 1\ns x\nf 1 3 4 2\nf 3 5 6 4\n",
+        "s 1\ns 0 # off\nf 1 3 4 2\nf 3 5 6 4\n",
         "vn 0 0 1\nvt 0 0\nf 1/1 3/1 4/1 2/1\nf 3/1 5/1 6/1 4/1\n",
     ] {
         assert!(normals(faces).is_empty(), "{faces}");
@@ -63,8 +63,10 @@ fn faces_of_one_group_share_the_mean_at_their_corners() {
     let joined = normals("s 1\nf 1 3 4 2\nf 3 5 6 4\n");
     assert_eq!(joined[0], [LEFT, UP, UP]);
     assert_eq!(joined[2], [UP, RIGHT, RIGHT]);
-    // Another group, or none, does not take part.
-    for second in ["s 2", "s off"] {
+    // A group may have a name.
+    assert_eq!(normals("s on\nf 1 3 4 2\nf 3 5 6 4\n"), joined);
+    // Another group, none, or another object does not take part.
+    for second in ["s 2", "s off", "o other"] {
         let apart = normals(&format!("s 1\nf 1 3 4 2\n{second}\nf 3 5 6 4\n"));
         assert_eq!(apart, [[LEFT; 3], [LEFT; 3], [RIGHT; 3], [RIGHT; 3]]);
     }
