@@ -321,7 +321,8 @@ impl<'a> Build<'a> {
             } else if triangle_fault(&vertices).is_some() {
                 flat.push(index);
             } else {
-                let is_black = matches!(self.surfaces[surface as usize].scatter, Scatter::Black);
+                let known = self.surfaces.get(surface as usize);
+                let is_black = known.is_some_and(|s| matches!(s.scatter, Scatter::Black));
                 if let Some(normals) = normals.get(index).filter(|_| !is_black) {
                     let turned = normals.map(|normal| transform.turn(normal));
                     let normals = corner_normals(&vertices, turned);
