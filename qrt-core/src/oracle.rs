@@ -154,6 +154,15 @@ pub enum OracleError {
         /// Least number of fraction bits that the sphere needs.
         needed: u32,
     },
+    /// The normal of a smooth face of a mesh changes over a width that has too few bits.
+    ThinSmoothFace {
+        /// The number of the mesh in the scene's list of primitives.
+        primitive: usize,
+        /// Number of fraction bits of the circuit's numbers.
+        fraction: u32,
+        /// Least number of fraction bits that the face needs.
+        needed: u32,
+    },
     /// The cells of a checker have too few bits.
     SmallCell {
         /// The name of the material.

@@ -1,6 +1,7 @@
 //! Meshes shaded by interpolated normals, against the sphere that they stand for and in a furnace, in
 //! floating point and as circuits.
 
+use super::spheres::seen;
 use qrt::prelude::*;
 use qrt::scene::front::parse;
 use std::collections::HashMap;
@@ -132,16 +133,6 @@ fn mesh(cuts: u32, has_normals: bool, smooth: &str) -> String {
 const LIT: &str =
     "[{ bits: [10, 10] }, { bits: [10, 10], light: [8, 8] }, { bits: [10, 10], light: [8, 8] }]";
 const UNLIT: &str = "[{ bits: [10, 10] }, { bits: [10, 10] }, { bits: [10, 10] }]";
-
-fn seen(scene: &ValidScene, model: Model) -> Vec<[f64; 3]> {
-    let options = RenderOptions {
-        model: Some(model),
-        estimator: Some(Estimator::Exact),
-        quiet: true,
-        ..RenderOptions::default()
-    };
-    render(scene, &options).unwrap().image.pixels
-}
 
 fn mean(picture: &[[f64; 3]]) -> f64 {
     let sum: f64 = picture.as_flattened().iter().sum();
@@ -344,4 +335,34 @@ fn faces_of_one_plane_do_not_light_each_other() {
         let unlit = seen(&read(&scene, &["sampling.lights=none"]), Model::Real);
         assert!(distance(&lit, &unlit) < 1e-6, "{lights}");
     }
+}
+
+/// A strip of 1e-5 of the scene whose normal turns across it: its circuit would have the wrong normals.
+#[test]
+fn normals_of_too_thin_faces_are_refused() {
+    let name = format!("qrt-strip-{}.obj", std::process::id());
+    let strip =
+        "v 0 0 0\nv 1 0 0\nv 0 1e-5 0\nvn 0.5 0 1\nvn -0.5 0 1\nvn 0 0.5 1\nf 1//1 2//2 3//3\n";
+    std::fs::write(std::env::temp_dir().join(&name), strip).unwrap();
+    let scene = |smooth: &str| {
+        let scene = text(
+            "eye: [0, 0, 3], target: [0, 0, 0], vfov: 30",
+            "ball: { mirror: { reflectance: 1 } }",
+            &format!("mesh: {{ obj: {name}, material: ball, smooth: {smooth} }}"),
+            "path_bits: 2, depths: [{ bits: [4, 4] }, { bits: [4, 4] }]",
+        );
+        read(&scene, &["sky={ radiance: 1 }"])
+    };
+    let fixed = RenderOptions {
+        model: Some(Model::Fixed),
+        estimator: Some(Estimator::Exact),
+        ..RenderOptions::default()
+    };
+    let error = render(&scene("auto"), &fixed).err().unwrap().to_string();
+    let expected =
+        "the normals of this mesh change over widths that have too few of 16 fraction bits";
+    assert!(error.contains(expected), "{error}");
+    assert!(render(&scene("0"), &fixed).is_ok());
+    // Floating point has enough bits.
+    seen(&scene("auto"), Model::Real);
 }

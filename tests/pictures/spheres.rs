@@ -26,7 +26,7 @@ geometry:
 }
 
 /// The exact mean of a model's pixels.
-fn seen(scene: &ValidScene, model: Model) -> Vec<[f64; 3]> {
+pub(crate) fn seen(scene: &ValidScene, model: Model) -> Vec<[f64; 3]> {
     let options = RenderOptions {
         model: Some(model),
         estimator: Some(Estimator::Exact),

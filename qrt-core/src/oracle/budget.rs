@@ -83,6 +83,14 @@ impl OracleError {
                 let what = Circuit::SmallSphere { fraction, needed };
                 Problem::new(place.key("radius"), what)
             }
+            &Self::ThinSmoothFace {
+                primitive,
+                fraction,
+                needed,
+            } => {
+                let place = root.key("geometry").item(primitive).key("mesh");
+                Problem::new(place, Circuit::ThinSmoothFace { fraction, needed })
+            }
             &Self::SmallCell {
                 ref material,
                 kind,

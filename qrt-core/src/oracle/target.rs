@@ -2,12 +2,13 @@
 
 use super::{DEFAULT_FRACTION, OracleError, OracleOptions, faces};
 use crate::compile::{Strategy, Target};
-use crate::tracer::{Stage, StageBall};
+use crate::tracer::{SmoothStage, Stage, StageBall};
 use qrt_scene::Material;
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::{Ball, ValidScene};
 
-/// Least radius of a sphere, in units in the last place: a hit is then off by less than a tenth of it.
+/// Least radius of a sphere, or of the curvature of a smooth face, in units in the last place: a hit is then
+/// off by less than a tenth of it.
 const LEAST_RADIUS: f64 = 16.0;
 
 /// Least edge of a checker's cell, in units in the last place: a hit, which is off by a few units, is
@@ -17,7 +18,7 @@ const LEAST_CELL: f64 = 16.0;
 /// The settings with which a program of `scene` is built.
 ///
 /// # Errors
-/// A sphere or the cells of a checker are too small for the scene's fraction bits.
+/// A sphere, a smooth face or the cells of a checker are too small for the scene's fraction bits.
 pub(super) fn target<'a, const C: usize>(
     scene: &ValidScene,
     stage: &Stage<C>,
@@ -34,6 +35,16 @@ pub(super) fn target<'a, const C: usize>(
         let more = (LEAST_RADIUS / (staged.radius * units)).log2().ceil() as u32;
         return Err(OracleError::SmallSphere {
             primitive: ball.primitive,
+            fraction,
+            needed: fraction + more,
+        });
+    }
+    if let Some((face, radius)) = stage.smooth.as_ref().and_then(SmoothStage::least_radius)
+        && radius * units < LEAST_RADIUS
+    {
+        let more = (LEAST_RADIUS / (radius * units)).log2().ceil() as u32;
+        return Err(OracleError::ThinSmoothFace {
+            primitive: scene.primitive_of(face),
             fraction,
             needed: fraction + more,
         });

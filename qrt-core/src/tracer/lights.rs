@@ -90,11 +90,8 @@ impl Lamps {
         let is_smooth = |label: u32| smooth.is_some_and(|smooth| smooth.is_smooth(label));
         let face_of = |label: u32| {
             if let Some(outline) = geometry.corners.get(label as usize) {
-                return if is_smooth(label) {
-                    LitFace::Smooth(outline)
-                } else {
-                    LitFace::Polygon(outline)
-                };
+                let is_smooth = is_smooth(label);
+                return LitFace::Polygon { outline, is_smooth };
             }
             let ball = &geometry.balls[label as usize - geometry.corners.len()];
             LitFace::Sphere {

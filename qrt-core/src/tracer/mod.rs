@@ -68,4 +68,5 @@ pub use polygon::{EdgeTest, FaceFrame, Plane};
 pub use ray::{Hit, NearestSearch, Ray, Start};
 pub use sampled::Sampled;
 pub(crate) use search::Search;
+pub(crate) use smooth::SmoothStage;
 pub use stage::{Stage, WideValue};

@@ -60,6 +60,17 @@ impl SmoothStage {
         })
     }
 
+    /// The least radius of curvature of a smooth face, in stage units, and its face: a normal changes by
+    /// about the distance over this radius.
+    pub(crate) fn least_radius(&self) -> Option<(usize, f64)> {
+        let radius = |row: &[f64; 15]| {
+            let changes = row[3..12].chunks(3).map(DVec3::from_slice);
+            1.0 / changes.map(DVec3::length).fold(0.0, f64::max)
+        };
+        let radii = self.rows.iter().map(radius).enumerate();
+        radii.min_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
     /// True if the normal of `face` is interpolated.
     pub(super) fn is_smooth(&self, face: u32) -> bool {
         self.is_smooth[face as usize] == 1

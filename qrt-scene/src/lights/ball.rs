@@ -7,10 +7,13 @@ use glam::DVec3;
 /// A face that gives or receives light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LitFace<'a> {
-    /// The corners of a convex polygon; `(v1 - v0) x (v2 - v0)` is the front.
-    Polygon(&'a [DVec3]),
-    /// The corners of a triangle that is shaded by interpolated normals. It emits as a polygon does.
-    Smooth(&'a [DVec3]),
+    /// A convex polygon.
+    Polygon {
+        /// The corners; `(v1 - v0) x (v2 - v0)` is the front.
+        outline: &'a [DVec3],
+        /// True if it is shaded by interpolated normals. It emits as a flat polygon does.
+        is_smooth: bool,
+    },
     /// A sphere, whose front is outside.
     Sphere {
         /// The centre.
@@ -22,7 +25,7 @@ pub enum LitFace<'a> {
 
 /// Returns bounds over all points of the faces of a `surface` and all points of a `lamp`.
 pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFace<'_>) -> Reached {
-    let (mut polygons, mut smooth) = (Vec::new(), Vec::new());
+    let (mut flat, mut smooth) = (Vec::new(), Vec::new());
     let mut most = Reached {
         form: 0.0,
         nearness: 0.0,
@@ -34,12 +37,14 @@ pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFac
     for face in surface {
         match (face, lamp) {
             (_, LitFace::Sphere { .. }) | (LitFace::Sphere { .. }, _) => join(near(face, lamp)),
-            (LitFace::Polygon(outline), _) => polygons.push(outline),
-            (LitFace::Smooth(outline), _) => smooth.push(outline),
+            (LitFace::Polygon { outline, is_smooth }, _) => {
+                let faces = if is_smooth { &mut smooth } else { &mut flat };
+                faces.push(outline);
+            }
         }
     }
-    if let LitFace::Polygon(lamp) | LitFace::Smooth(lamp) = lamp {
-        for (faces, is_smooth) in [(polygons, false), (smooth, true)] {
+    if let LitFace::Polygon { outline: lamp, .. } = lamp {
+        for (faces, is_smooth) in [(flat, false), (smooth, true)] {
             if !faces.is_empty() {
                 join(strongest(&faces, is_smooth, lamp));
             }
@@ -53,17 +58,14 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
     let is_dark = match (face, lamp) {
         // A sphere shines outwards alone, so it does not light itself.
         (_, LitFace::Sphere { .. }) if face == lamp => true,
-        (LitFace::Sphere { centre, radius }, LitFace::Polygon(lamp) | LitFace::Smooth(lamp)) => {
+        (LitFace::Sphere { centre, radius }, LitFace::Polygon { outline: lamp, .. }) => {
             let normal = (lamp[1] - lamp[0])
                 .cross(lamp[2] - lamp[0])
                 .normalize_or_zero();
             normal.dot(centre - lamp[0]) + radius <= 0.0
         }
         // The surface is within the sphere, whose light goes outwards.
-        (
-            LitFace::Polygon(outline) | LitFace::Smooth(outline),
-            LitFace::Sphere { centre, radius },
-        ) => outline
+        (LitFace::Polygon { outline, .. }, LitFace::Sphere { centre, radius }) => outline
             .iter()
             .all(|corner| corner.distance(centre) < radius),
         (
@@ -76,8 +78,7 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
                 radius: big,
             },
         ) => a.distance(b) + r < big,
-        // Neither is a sphere.
-        _ => false,
+        (LitFace::Polygon { .. }, LitFace::Polygon { .. }) => false,
     };
     if is_dark {
         return Reached {
@@ -114,20 +115,13 @@ fn distance(a: LitFace<'_>, b: LitFace<'_>) -> f64 {
             let apart = a.distance(b);
             (apart - r - s).max((r - s).abs() - apart)
         }
-        (
-            LitFace::Polygon(outline) | LitFace::Smooth(outline),
-            LitFace::Sphere { centre, radius },
-        )
-        | (
-            LitFace::Sphere { centre, radius },
-            LitFace::Polygon(outline) | LitFace::Smooth(outline),
-        ) => {
+        (LitFace::Polygon { outline, .. }, LitFace::Sphere { centre, radius })
+        | (LitFace::Sphere { centre, radius }, LitFace::Polygon { outline, .. }) => {
             let far = outline.iter().map(|corner| corner.distance(centre));
             let within = radius - far.fold(0.0, f64::max);
             (polygon_distance(outline, centre) - radius).max(within)
         }
-        // Neither is a sphere.
-        _ => 0.0,
+        (LitFace::Polygon { .. }, LitFace::Polygon { .. }) => 0.0,
     }
 }
 
@@ -203,6 +197,7 @@ mod tests {
     /// the bound for small spheres face to face.
     #[test]
     fn no_form_exceeds_its_bound() {
+        let polygon = |outline, is_smooth| LitFace::Polygon { outline, is_smooth };
         let ball = |z: f64, radius: f64| LitFace::Sphere {
             centre: DVec3::new(0.2, 0.1, z),
             radius,
@@ -215,11 +210,13 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let mut point = |face: LitFace<'_>| match face {
-            LitFace::Polygon(square) | LitFace::Smooth(square) => {
+            LitFace::Polygon {
+                outline: square,
+                is_smooth,
+            } => {
                 let edges = [square[1] - square[0], square[3] - square[0]];
                 let point = square[0] + edges[0] * random() + edges[1] * random();
-                // Any direction, so also that to the lamp.
-                let is_smooth = matches!(face, LitFace::Smooth(_));
+                // A smooth face has any normal, so also that to the lamp.
                 let normal = edges[0].cross(edges[1]).normalize();
                 (point, (!is_smooth).then_some(normal))
             }
@@ -232,11 +229,11 @@ mod tests {
             }
         };
         for (surface, lamp) in [
-            (LitFace::Polygon(&SQUARE), ball(2.0, 0.5)),
-            (ball(2.0, 0.5), LitFace::Polygon(&SQUARE)),
+            (polygon(&SQUARE, false), ball(2.0, 0.5)),
+            (ball(2.0, 0.5), polygon(&SQUARE, false)),
             (ball(2.0, 0.5), ball(0.0, 0.25)),
-            (LitFace::Smooth(&SQUARE), ball(2.0, 0.5)),
-            (LitFace::Smooth(&SQUARE), LitFace::Polygon(&LAMP)),
+            (polygon(&SQUARE, true), ball(2.0, 0.5)),
+            (polygon(&SQUARE, true), polygon(&LAMP, false)),
         ] {
             let bound = strongest_of([surface].into_iter(), lamp).form;
             let mut greatest: f64 = 0.0;
@@ -252,9 +249,9 @@ mod tests {
                 "{greatest} {bound}"
             );
         }
-        let behind = strongest_of([ball(-2.0, 0.5)].into_iter(), LitFace::Polygon(&SQUARE));
+        let behind = strongest_of([ball(-2.0, 0.5)].into_iter(), polygon(&SQUARE, false));
         assert_eq!(behind.form, 0.0);
-        let touching = strongest_of([ball(0.5, 0.5)].into_iter(), LitFace::Polygon(&SQUARE));
+        let touching = strongest_of([ball(0.5, 0.5)].into_iter(), polygon(&SQUARE, false));
         assert_eq!(touching.form, f64::INFINITY);
     }
 }

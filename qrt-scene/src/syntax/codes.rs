@@ -264,7 +264,7 @@ codes! {
         "Use a coarser mesh, or find primary hits classically";
     SPHERE_IN_TABLE = "QRT0613", "a sphere in a table of faces",
         "Search with `--visibility classical`, or draw the sphere as a mesh";
-    SMALL_PART = "QRT0614", "a sphere, or the cells of a checker, too small for the circuit's numbers",
+    SMALL_PART = "QRT0614", "a sphere, a smooth face or a checker's cells, too small for the circuit's numbers",
         "Use more fraction bits, larger cells, or a quad in place of a large sphere";
     MACRO_SCENE = "QRT0701", "what stands in `qrt!` is not a scene",
         "Write `pub scene Name { ... }` or `pub scene Name from \"scene.yaml\"`";

@@ -325,7 +325,7 @@ impl<'a> Build<'a> {
                 let is_black = known.is_some_and(|s| matches!(s.scatter, Scatter::Black));
                 if let Some(normals) = normals.get(index).filter(|_| !is_black) {
                     let turned = normals.map(|normal| transform.turn(normal));
-                    let normals = corner_normals(&vertices, turned);
+                    let normals = shading_normals(&vertices, turned);
                     let polygon = self.out.len();
                     self.smooth
                         .extend(normals.map(|normals| SmoothFace { polygon, normals }));
@@ -456,7 +456,7 @@ fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
 
 /// Returns the normals of a triangle's corners as its shading uses them: on the side of its front, and
 /// within 75.5 degrees of its own normal. `None` if all are its own up to rounding: it is flat.
-fn corner_normals(vertices: &[DVec3; 3], normals: [DVec3; 3]) -> Option<[DVec3; 3]> {
+fn shading_normals(vertices: &[DVec3; 3], normals: [DVec3; 3]) -> Option<[DVec3; 3]> {
     let own = unit_normal(vertices);
     let [a, b, c] = normals;
     // A file may have all normals on the other side.

@@ -84,13 +84,10 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
 fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
     let mut smooth = valid.smooth.iter().map(|face| face.polygon).peekable();
     let polygons = valid.polygons.iter().enumerate();
-    let polygons =
-        polygons.map(
-            move |(number, polygon)| match smooth.next_if(|&smooth| smooth == number) {
-                Some(_) => LitFace::Smooth(polygon.outline()),
-                None => LitFace::Polygon(polygon.outline()),
-            },
-        );
+    let polygons = polygons.map(move |(number, polygon)| LitFace::Polygon {
+        outline: polygon.outline(),
+        is_smooth: smooth.next_if_eq(&number).is_some(),
+    });
     let balls = valid.balls.iter().map(|ball| LitFace::Sphere {
         centre: ball.centre,
         radius: ball.radius,

@@ -270,7 +270,7 @@ impl ValidScene {
         first(primitive)..first(primitive + 1)
     }
     /// The number of the primitive that polygon number `polygon` belongs to.
-    pub(crate) fn primitive_of(&self, polygon: usize) -> usize {
+    pub fn primitive_of(&self, polygon: usize) -> usize {
         let after = self.firsts.partition_point(|&first| first <= polygon);
         after.saturating_sub(1)
     }

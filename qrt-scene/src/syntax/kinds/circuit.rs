@@ -124,6 +124,13 @@ problems! {
             } else {
                 "make the cells larger".to_owned()
             }) };
+        ThinSmoothFace { fraction: u32, needed: u32 } = SMALL_PART
+            "the normals of this mesh change over widths that have too few of {fraction} fraction bits"
+            help { Some(if *needed <= 30 {
+                format!("set `precision.fraction: {needed}`, or `smooth: 0`")
+            } else {
+                "write `smooth: 0`, or remove the thinnest faces of the mesh".to_owned()
+            }) };
         SmallSphere { fraction: u32, needed: u32 } = SMALL_PART
             "beside the size of the scene this sphere has too few of {fraction} fraction bits"
             help { Some(if *needed <= 30 {

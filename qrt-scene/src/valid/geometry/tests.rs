@@ -265,16 +265,16 @@ fn an_angle_decides_which_faces_are_smooth() {
 #[test]
 fn normals_are_on_the_side_of_the_front_and_not_along_the_face() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert_eq!(corner_normals(&triangle, [DVec3::Z; 3]), None);
-    assert_eq!(corner_normals(&triangle, [-DVec3::Z; 3]), None);
+    assert_eq!(shading_normals(&triangle, [DVec3::Z; 3]), None);
+    assert_eq!(shading_normals(&triangle, [-DVec3::Z; 3]), None);
     // Four decimals are no shading.
     let rounded = DVec3::new(5e-4, -5e-4, 1.0).normalize();
-    assert_eq!(corner_normals(&triangle, [rounded; 3]), None);
+    assert_eq!(shading_normals(&triangle, [rounded; 3]), None);
     let slanted = DVec3::new(0.6, 0.0, 0.8);
     let along = DVec3::new(-1.0, 0.0, 0.0);
-    let found = corner_normals(&triangle, [slanted, slanted, along]).unwrap();
+    let found = shading_normals(&triangle, [slanted, slanted, along]).unwrap();
     assert_eq!(found[..2], [slanted; 2]);
-    let turned = corner_normals(&triangle, [-slanted, -slanted, -along]).unwrap();
+    let turned = shading_normals(&triangle, [-slanted, -slanted, -along]).unwrap();
     assert_eq!(turned, found);
     assert!((found[2] - DVec3::new(-0.9375_f64.sqrt(), 0.0, LEAST_COSINE)).length() < 1e-12);
 }
