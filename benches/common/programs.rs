@@ -3,6 +3,7 @@
 use qrt::circuit::{
     Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Style, Type, Word,
 };
+use std::sync::Arc;
 
 /// Kinds of operations, in turn: `+` add, `k` subtract a constant, `<` less, `&` and, `?` select,
 /// `n` negate, `*` multiply, `c` scale, `/` divide, `r` square root, `t` a table of 32 entries.
@@ -216,7 +217,7 @@ impl Maker {
                     inverted: false,
                 });
                 let entries = (0..32).map(|_| self.draw() as i64);
-                let column: Box<[i64]> = entries.collect();
+                let column: Arc<[i64]> = entries.collect();
                 let columns = vec![column];
                 Op::Table {
                     style: Style::OutOfPlace,

@@ -553,8 +553,8 @@ operations! {
         Table = "table"
         /// Bits of the address, the least significant first.
         reads address: Box<[Bit<R>]>,
-        /// The entries of each column, by address.
-        constant columns: Arc<[Box<[i64]>]>,
+        /// The entries of each column, by address. Tables may share columns.
+        constant columns: Arc<[Arc<[i64]>]>,
         /// Number of the lowest address bits that select among words read together, under
         /// [`Style::OutOfPlace`].
         constant low: u32,

@@ -35,6 +35,7 @@ pub use bound::BoundProgram;
 pub use budget::check_budget;
 pub use call_cost::{CallCost, call_cost};
 pub use nearest::{MOST_FACES, NearestOracle};
+pub(crate) use oracles::LARGE;
 pub use oracles::{OracleCost, OracleName, Oracles, PARTS_OF_A_CALL};
 pub use phase::MOST_BITS;
 pub use predicate::{Marks, Predicate, PredicateError};

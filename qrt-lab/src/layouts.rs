@@ -1,7 +1,9 @@
 //! Qubits against gates: the cost of a scene's circuit under every strategy.
 
 use qrt_core::compile::Strategy;
-use qrt_core::oracle::{OracleCost, OracleError, OracleName, Oracles, StrategyCost, StrategyCosts};
+use qrt_core::oracle::{
+    CallCost, OracleCost, OracleError, OracleName, Oracles, StrategyCost, StrategyCosts,
+};
 use qrt_drawing::{Canvas, Drawn, Plot, PlotAxis, Series};
 use qrt_runtime::workers::{Progress, ThreadsError, Workers};
 use rayon::prelude::*;
@@ -34,17 +36,24 @@ pub fn front(
         total: all.len() as u64,
         resumed: 0,
     });
-    let layout = |strategy: &Strategy| {
+    let call = |&strategy: &Strategy| {
         if workers.cancelled() {
             return Err(LayoutsError::Cancelled);
         }
-        let layout = oracle.under(*strategy).map_err(LayoutsError::Oracle);
+        let call = oracle.call(strategy).map_err(LayoutsError::Oracle)?;
         workers.report(Progress::Finished(1));
-        layout
+        Ok((call, strategy))
     };
-    let layouts: Result<Vec<StrategyCost>, LayoutsError> =
-        workers.on_threads(|| all.par_iter().map(layout).collect())?;
-    Ok(StrategyCost::front(layouts?))
+    let calls: Result<Vec<(CallCost, Strategy)>, LayoutsError> =
+        workers.on_threads(|| all.par_iter().map(call).collect())?;
+    let front = CallCost::front(calls?);
+    let layout = |(_, strategy): &(CallCost, Strategy)| {
+        if workers.cancelled() {
+            return Err(LayoutsError::Cancelled);
+        }
+        oracle.under(*strategy).map_err(LayoutsError::Oracle)
+    };
+    workers.on_threads(|| front.par_iter().map(layout).collect())?
 }
 
 /// Returns the oracle with the most Toffolis, of `channel` or of all channels, and its front: see [`front`].

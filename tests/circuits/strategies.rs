@@ -6,7 +6,7 @@ use crate::common::command::Folder;
 use crate::common::scene::{from_file, written};
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
-use qrt::core::oracle::{Oracle, OracleOptions, Oracles, StrategyCost, call_cost};
+use qrt::core::oracle::{CallCost, Oracle, OracleOptions, Oracles, StrategyCost, call_cost};
 use qrt::core::tracer::PixelClass;
 use qrt::runtime::path_machines::OracleMachine;
 use qrt::scene::valid::ValidScene;
@@ -78,28 +78,25 @@ fn auto_is_the_cheapest_that_fits() {
     let (name, keep) = StrategyCost::of_most_expensive(&oracles, Strategy::KEEP).unwrap();
     let channel = name.channel;
     let all = oracles.layouts(channel, PixelClass::default());
-    let layouts = Strategy::all()
+    let calls = Strategy::all()
         .into_iter()
-        .map(|strategy| all.under(strategy).unwrap());
-    let front = StrategyCost::front(layouts.collect());
-    assert_eq!(front[0], keep);
+        .map(|strategy| (all.call(strategy).unwrap(), strategy));
+    let front = CallCost::front(calls.collect());
+    assert_eq!(front[0], (keep.cost, keep.strategy));
     assert!(front.len() > 20);
     for place in (1..front.len()).step_by(3) {
         // The qubits that it needs, and one fewer than the next cheaper strategy needs.
-        for qubits in [front[place].cost.qubits, front[place - 1].cost.qubits - 1] {
+        for qubits in [front[place].0.qubits, front[place - 1].0.qubits - 1] {
             let budget = format!("budget.qubits={qubits}");
             let scene = written(CORNER, &["circuit.uncompute=auto", &budget]);
             let oracle = Oracle::new(&scene, channel, OracleOptions::default()).unwrap();
-            assert_eq!(call_cost(&[oracle]), front[place].cost, "{budget}");
+            assert_eq!(call_cost(&[oracle]), front[place].0, "{budget}");
         }
     }
     // If no strategy fits, the error names the least number of qubits.
     let scene = written(CORNER, &["circuit.uncompute=auto", "budget.qubits=1"]);
     let oracle = Oracle::new(&scene, channel, OracleOptions::default()).unwrap();
-    assert_eq!(
-        call_cost(&[oracle]).qubits,
-        front.last().unwrap().cost.qubits
-    );
+    assert_eq!(call_cost(&[oracle]).qubits, front.last().unwrap().0.qubits);
     // The cached strategy of a scene is not used for the scene with other parameters.
     let written_for = |qubits: u64| {
         let budget = format!("budget.qubits={qubits}");

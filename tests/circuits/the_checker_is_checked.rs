@@ -292,7 +292,9 @@ fn a_wrong_table_entry_is_caught_if_it_changes_a_path() {
         let program = &mut wrong.program;
         if let Op::Table { columns, .. } = &mut program.ops[place] {
             let mut changed = columns.to_vec();
-            changed[column][entry] ^= 1 << (k % 3);
+            let mut values = changed[column].to_vec();
+            values[entry] ^= 1 << (k % 3);
+            changed[column] = values.into();
             *columns = changed.into();
         }
         // The garbage of another table may be wider.

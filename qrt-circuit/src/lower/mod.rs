@@ -74,6 +74,8 @@ struct Lowering {
     carried: Vec<usize>,
     /// The current operation's garbage register; `None` if bits are made on demand.
     scratch: Option<Vec<Qubit>>,
+    /// The plans of tables.
+    plans: table::Plans,
 }
 
 impl GateSink for Lowering {

@@ -12,6 +12,7 @@
 
 use super::{GateSink, Lowering, Qubit, Wire};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The source of a planned function of the address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,7 +116,7 @@ impl Truths {
     /// address. Entries beyond the last equal the last.
     fn new(
         address_bits: usize,
-        columns: &[Box<[i64]>],
+        columns: &[Arc<[i64]>],
         low: usize,
         width: impl Fn(usize) -> usize,
     ) -> Self {
@@ -243,7 +244,7 @@ impl Plan {
     /// Plans a table whose targets have the widths `width`.
     pub(super) fn new(
         address_bits: usize,
-        columns: &[Box<[i64]>],
+        columns: &[Arc<[i64]>],
         low: u32,
         width: impl Fn(usize) -> usize,
     ) -> Self {
@@ -278,7 +279,7 @@ fn doubling(groups: usize) -> u64 {
 
 /// Returns the number of low bits, of an address of `address_bits`, that select among words read
 /// together: the number with the fewest Toffolis.
-pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
+pub fn best_low(address_bits: u32, columns: &[Arc<[i64]>]) -> u32 {
     let bits = |column: &[i64]| {
         let bits = |entry: &i64| 65 - (entry ^ (entry >> 63)).leading_zeros();
         column.iter().map(bits).max().unwrap_or(0) as usize
@@ -300,15 +301,56 @@ pub fn best_low(address_bits: u32, columns: &[Box<[i64]>]) -> u32 {
     best.1
 }
 
+/// Least number of entries of a table whose plan is kept.
+const LONG: usize = 1 << 10;
+
+/// The plans of long tables, by their columns, low bits and widths.
+#[derive(Default)]
+pub(super) struct Plans(HashMap<PlanKey, KeptPlan>);
+
+/// The addresses of the columns, which the plan's entry keeps alive; the numbers of bits of the address
+/// and of its low part; the widths of the targets.
+type PlanKey = (Box<[usize]>, usize, u32, Box<[usize]>);
+
+struct KeptPlan {
+    plan: Arc<Plan>,
+    _columns: Box<[Arc<[i64]>]>,
+}
+
 impl Lowering {
+    /// Returns the plan of a table. Many searches look up the same columns.
+    fn plan(
+        &mut self,
+        address_bits: usize,
+        columns: &[Arc<[i64]>],
+        low: u32,
+        targets: &[Vec<Qubit>],
+    ) -> Arc<Plan> {
+        let make = || {
+            let width = |column: usize| targets[column].len();
+            Arc::new(Plan::new(address_bits, columns, low, width))
+        };
+        if columns.iter().all(|column| column.len() < LONG) {
+            return make();
+        }
+        let places = columns.iter().map(|column| column.as_ptr() as usize);
+        let widths = targets.iter().map(Vec::len);
+        let key = (places.collect(), address_bits, low, widths.collect());
+        let kept = self.plans.0.entry(key).or_insert_with(|| KeptPlan {
+            plan: make(),
+            _columns: columns.into(),
+        });
+        kept.plan.clone()
+    }
+
     pub(super) fn table(
         &mut self,
         mut address: Vec<Wire>,
-        columns: &[Box<[i64]>],
+        columns: &[Arc<[i64]>],
         low: u32,
         targets: &[Vec<Qubit>],
     ) {
-        let plan = Plan::new(address.len(), columns, low, |column| targets[column].len());
+        let plan = self.plan(address.len(), columns, low, targets);
         let copies = self.detach(&mut address, &[]);
         let hot = self.one_hot(&plan, &address[plan.low..]);
         let mut at: Vec<Option<(Qubit, bool)>> = vec![None; plan.nodes.len()];

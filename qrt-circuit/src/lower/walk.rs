@@ -6,6 +6,7 @@
 //! cost no more. Subtrees of equal entries are not walked.
 
 use super::{GateSink, Lowering, Qubit, Wire};
+use std::sync::Arc;
 
 /// The entries of a subtree, by index.
 type Range = std::ops::Range<usize>;
@@ -15,7 +16,7 @@ fn entry(column: &[i64], place: usize) -> i64 {
 }
 
 /// Returns the two halves of a subtree. `None` if they are equal.
-fn halves(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> Option<[Range; 2]> {
+fn halves(columns: &[Arc<[i64]>], masks: &[i64], range: &Range) -> Option<[Range; 2]> {
     let middle = range.start.midpoint(range.end);
     let half = middle - range.start;
     let differ = |place: usize| {
@@ -37,7 +38,7 @@ fn masks(columns: usize, width: impl Fn(usize) -> usize) -> Vec<i64> {
     (0..columns).map(mask).collect()
 }
 
-fn all_zero(columns: &[Box<[i64]>], masks: &[i64], range: &Range) -> bool {
+fn all_zero(columns: &[Arc<[i64]>], masks: &[i64], range: &Range) -> bool {
     // Plain loops: in unoptimised code, as in a macro, iterators take longer.
     let mut which = 0;
     while which < columns.len() {
@@ -58,7 +59,7 @@ impl Lowering {
     pub(super) fn walk(
         &mut self,
         mut address: Vec<Wire>,
-        columns: &[Box<[i64]>],
+        columns: &[Arc<[i64]>],
         targets: &[Vec<Qubit>],
     ) {
         let copies = self.detach(&mut address, &[]);
@@ -73,7 +74,7 @@ impl Lowering {
     fn visit(
         &mut self,
         address: &[Wire],
-        columns: &[Box<[i64]>],
+        columns: &[Arc<[i64]>],
         masks: &[i64],
         targets: &[Vec<Qubit>],
         range: Range,

@@ -6,6 +6,7 @@ use crate::{
     Bit, BlockId, Gate, GateCircuit, Instruction, Op, Program, Qubit, Register, RegisterId, Style,
     Type, lower,
 };
+use std::sync::Arc;
 
 /// The most address bits of a truth table.
 const TABLE_BITS: u32 = 20;
@@ -450,7 +451,7 @@ fn with_parameters(gate: Gate, words: &[u64]) -> Result<Option<Gate>, QuantumErr
 /// Returns the program that looks up a flag, flips its phase, and uncomputes it.
 fn table(bits: u32, good: impl Fn(u64) -> bool) -> Program {
     let [id, flag, scratch] = [0, 1, 2].map(RegisterId);
-    let entries: Box<[i64]> = (0..1 << bits).map(|id| i64::from(good(id))).collect();
+    let entries: Arc<[i64]> = (0..1 << bits).map(|id| i64::from(good(id))).collect();
     let bit = |register, index| Bit {
         register,
         index,

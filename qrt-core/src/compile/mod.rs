@@ -60,6 +60,7 @@ use qrt_scene::sampling::PathPoints;
 use qrt_scene::syntax::{Circuit, What};
 use std::collections::HashMap;
 use std::rc::Rc;
+use table::SharedTables;
 use value::{Affine, Choice, Truth, Value};
 
 use number::negative as negative_range;
@@ -216,6 +217,7 @@ pub struct Builder<'a> {
     coordinates: HashMap<Coordinate, Index>,
     /// By width: the entries 0, 1, 2, ... of the table of an integer whose address is its own bits.
     counted: HashMap<u32, Rc<[f64]>>,
+    shared_tables: SharedTables,
     names: Vec<NamedValue>,
     /// By ray: its start and its hit, as the tracer reported them.
     segments: Vec<Segment<Self>>,
@@ -236,6 +238,13 @@ pub(crate) struct Recorded {
     records: Vec<RegisterId>,
     /// The values that the tracer has names for.
     pub(crate) names: Vec<NamedPlace>,
+}
+
+impl Recorded {
+    /// Number of operations.
+    pub(crate) fn operations(&self) -> usize {
+        self.draft.ops.len()
+    }
 }
 
 impl<'a> Builder<'a> {
@@ -264,6 +273,7 @@ impl<'a> Builder<'a> {
             known: QuickMap::default(),
             coordinates: HashMap::new(),
             counted: HashMap::new(),
+            shared_tables: SharedTables::default(),
             names: Vec::new(),
             segments: Vec::new(),
             surface: None,

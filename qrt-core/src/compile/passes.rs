@@ -158,12 +158,24 @@ fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known
         } if !known.lows.contains_key(targets) => Some((address.len() as u32, columns, targets)),
         _ => None,
     });
-    let unknown: Vec<_> = unknown.collect();
-    let found = known.cores.map(&unknown, 1, |(bits, columns, _)| {
+    // Searches share the columns of a mesh's tables.
+    let mut alike: QuickMap<(u32, Vec<*const i64>), usize> = QuickMap::default();
+    let (mut distinct, mut places) = (Vec::new(), Vec::new());
+    for (bits, columns, targets) in unknown {
+        let key = (bits, columns.iter().map(|column| column.as_ptr()).collect());
+        let place = *alike.entry(key).or_insert_with(|| {
+            distinct.push((bits, columns));
+            distinct.len() - 1
+        });
+        places.push((targets.clone(), place));
+    }
+    let found = known.cores.map(&distinct, 1, |(bits, columns)| {
         lower::best_low(*bits, columns)
     });
-    let targets = unknown.iter().map(|(.., targets)| (*targets).clone());
-    known.lows.extend(targets.zip(found).collect::<Vec<_>>());
+    let lows = places
+        .into_iter()
+        .map(|(targets, place)| (targets, found[place]));
+    known.lows.extend(lows);
     for table in &mut tables {
         if let Op::Table { low, targets, .. } = table {
             *low = known.lows.get(&*targets).copied().unwrap_or(0);

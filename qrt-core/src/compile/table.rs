@@ -1,11 +1,16 @@
 //! Functions of few bits.
 
+use super::known::QuickSet;
 use super::number::RegisterShape;
 use super::value::{RealValue, Tabulated, Value};
 use super::{Builder, FEW, GARBAGE, Garbage};
+use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{Bit, Op, RegisterId, Type, Word};
 use std::rc::Rc;
 use std::sync::Arc;
+
+/// Least number of entries of a table that is worth sharing.
+const LONG: usize = 1 << 8;
 
 impl Tabulated {
     fn constant(value: f64) -> Self {
@@ -82,6 +87,39 @@ impl Tabulated {
     }
 }
 
+/// The entries of tables, each list once: all searches look up the same rows of a mesh.
+#[derive(Default)]
+pub(super) struct SharedTables {
+    columns: QuickSet<Arc<[i64]>>,
+    /// Entries of values, by the bits of their numbers.
+    entries: QuickMap<Box<[u64]>, Rc<[f64]>>,
+}
+
+impl SharedTables {
+    /// Returns the column with these entries.
+    fn column(&mut self, entries: Vec<i64>) -> Arc<[i64]> {
+        if let Some(known) = self.columns.get(&*entries) {
+            return known.clone();
+        }
+        let column: Arc<[i64]> = entries.into();
+        self.columns.insert(column.clone());
+        column
+    }
+
+    /// Returns the table with entries that it shares with an equal one, if it is long.
+    fn table(&mut self, table: Tabulated) -> Tabulated {
+        if table.entries.len() < LONG {
+            return table;
+        }
+        let bits = table.entries.iter().map(|entry| entry.to_bits());
+        let known = self.entries.entry(bits.collect());
+        Tabulated {
+            entries: known.or_insert(table.entries).clone(),
+            ..table
+        }
+    }
+}
+
 /// Toffolis of a table with `bits` address bits.
 fn one_hot_cost(bits: usize) -> u32 {
     (1_u32 << bits) - bits as u32 - 1
@@ -103,7 +141,7 @@ pub(super) fn joined(
 impl Builder<'_> {
     /// A number that is a function of few bits.
     pub(super) fn tabulated(&mut self, table: Tabulated) -> RealValue {
-        let table = table.reduced();
+        let table = self.shared_tables.table(table.reduced());
         let first = table.entries[0];
         if table.address.is_empty() {
             return RealValue::constant(first);
@@ -182,7 +220,8 @@ impl Builder<'_> {
                 // them.
                 let zeros = entries.iter().filter(|&&entry| entry != 0);
                 let zeros = zeros.map(|entry| entry.trailing_zeros()).min().unwrap_or(0);
-                let entries = entries.iter().map(|entry| entry >> zeros).collect();
+                let entries = entries.into_iter().map(|entry| entry >> zeros);
+                let entries = entries.collect();
                 let RegisterShape { ty, width, signed } = self.shape(range.map(|end| end >> zeros));
                 let target = self.look_up(&table.address, entries, ty, width);
                 Word {
@@ -201,11 +240,11 @@ impl Builder<'_> {
     pub(super) fn look_up(
         &mut self,
         address: &[Bit],
-        entries: Box<[i64]>,
+        entries: Vec<i64>,
         ty: Type,
         width: u32,
     ) -> RegisterId {
-        let columns: Arc<[Box<[i64]>]> = Arc::new([entries]);
+        let columns = Arc::new([self.shared_tables.column(entries)]);
         let address: Box<[Bit]> = address.into();
         let style = self.style(Garbage::Tables);
         self.emit(Op::Table {

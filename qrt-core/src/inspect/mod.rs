@@ -25,7 +25,7 @@ pub use stages::{CallPart, CallStage};
 
 use crate::compile::{Role, Strategy};
 use crate::oracle::{
-    CallCost, Oracle, OracleCost, OracleError, OracleName, Oracles, PARTS_OF_A_CALL,
+    CallCost, LARGE, Oracle, OracleCost, OracleError, OracleName, Oracles, PARTS_OF_A_CALL,
 };
 use crate::tracer::PixelClass;
 use qrt_circuit::lower::{self, Cost};
@@ -70,6 +70,10 @@ impl Inspection {
     /// As [`Oracle::new`].
     pub fn new(oracles: &Oracles<'_>, name: OracleName) -> Result<Self, OracleError> {
         let oracle = oracles.channel(name.channel, name.class)?;
+        if oracle.program.ops.len() > LARGE {
+            // The inspection itself takes gigabytes.
+            oracles.release_all();
+        }
         let whole = oracle.whole(0);
         let size = lower::size(&whole);
         Ok(Self {

@@ -13,6 +13,21 @@ pub struct CallCost {
     pub toffoli: u64,
 }
 
+impl CallCost {
+    /// The Pareto front of `costs`, the one with the fewest Toffolis first. No other beats one of
+    /// these in qubits without more Toffolis, or in Toffolis without more qubits.
+    pub fn front<T>(mut costs: Vec<(Self, T)>) -> Vec<(Self, T)> {
+        costs.sort_by_key(|(cost, _)| (cost.toffoli, cost.qubits));
+        let mut least = u64::MAX;
+        costs.retain(|(cost, _)| {
+            let fewer = cost.qubits < least;
+            least = least.min(cost.qubits);
+            fewer
+        });
+        costs
+    }
+}
+
 /// The cost of a call of the most expensive oracle in `channels`, each of which is of one channel.
 pub fn call_cost(channels: &[Oracle]) -> CallCost {
     let known = &mut compile::Known::default();

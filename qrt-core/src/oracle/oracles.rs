@@ -13,6 +13,10 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 /// The parts of one call of an oracle, in words.
 pub const PARTS_OF_A_CALL: &str = "compute, compare and flip, uncompute";
 
+/// Number of operations of a large program, which takes about half a gigabyte. Fewer such programs are
+/// held at a time, although that takes longer.
+pub(crate) const LARGE: usize = 1 << 20;
+
 /// The name of one of a scene's oracles: its channel, and the class of the pixels that it is for.
 ///
 /// ```
@@ -380,6 +384,15 @@ impl<'a> Oracles<'a> {
         }
     }
 
+    /// Drops the recordings and [`Oracles::all_channels`], which are made again if they are asked for. The
+    /// costs are kept.
+    pub(crate) fn release_all(&self) {
+        self.release();
+        for class in &self.of {
+            *locked(&class.all_channels) = None;
+        }
+    }
+
     fn places(&self) -> &'static [usize] {
         if self.luminance {
             &[0, 1, 2, 3]
@@ -416,8 +429,13 @@ impl<'a> Oracles<'a> {
             let oracle = recording.oracle_under(strategy, &[channel]);
             OracleCost::counted(names[channel], &oracle, &mut recording.known())
         };
-        // Programs are large: each is dropped once it is counted.
-        let costs = Cores::All.map(&[0, 1, 2], 1, of_channel);
+        // Each program is dropped once it is counted. Large ones are not held at the same time.
+        let cores = if recording.operations() > LARGE {
+            Cores::One
+        } else {
+            Cores::All
+        };
+        let costs = cores.map(&[0, 1, 2], 1, of_channel);
         let costs = [0, 1, 2].map(|channel: usize| costs[channel]);
         if with_all {
             let all = recording.oracle_under(strategy, self.places());

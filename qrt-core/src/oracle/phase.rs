@@ -6,6 +6,7 @@ use qrt_circuit::quantum::{LevelPhases, MAX_LEVEL_BITS, PhaseOracle, QuantumErro
 use qrt_circuit::{
     Bit, BlockId, Instruction, Op, Operand, Program, Register, RegisterId, Style, Type, lower,
 };
+use std::sync::Arc;
 
 /// Most bits in registers of a circuit whose gates are stored.
 pub const MOST_BITS: u64 = 1 << 19;
@@ -114,7 +115,7 @@ impl Oracle {
         let mask = (1_i64 << bits) - 1;
         let entry = |count: i64| phases.word(self.good(count)) & mask;
         let first = program.ops.len() as u32;
-        let (address, entries): (Vec<Bit>, Box<[i64]>) = match channel.count {
+        let (address, entries): (Vec<Bit>, Arc<[i64]>) = match channel.count {
             // All paths have one level. A table has an address, whatever it holds.
             Operand::Constant(count) => (vec![Bit::at(self.id, 0)], [entry(count); 2].into()),
             Operand::Word(word) => {

@@ -198,6 +198,11 @@ impl Recording {
         })
     }
 
+    /// Number of recorded operations, those that no oracle needs included.
+    pub(super) fn operations(&self) -> usize {
+        self.recorded.operations()
+    }
+
     /// Locks the cache of operations' figures; other threads wait until the guard is dropped.
     pub(super) fn known(&self) -> MutexGuard<'_, compile::Known> {
         compile::locked(&self.ops)

@@ -36,19 +36,6 @@ impl StrategyCost {
         let cost = oracles.layouts(name.channel, name.class).under(strategy)?;
         Ok((name, cost))
     }
-
-    /// The Pareto front of `costs`, the one with the fewest Toffolis first. No other beats one of
-    /// these in qubits without more Toffolis, or in Toffolis without more qubits.
-    pub fn front(mut costs: Vec<Self>) -> Vec<Self> {
-        costs.sort_by_key(|cost| (cost.cost.toffoli, cost.cost.qubits));
-        let mut least = u64::MAX;
-        costs.retain(|cost| {
-            let fewer = cost.cost.qubits < least;
-            least = least.min(cost.cost.qubits);
-            fewer
-        });
-        costs
-    }
 }
 
 /// The costs of one of a scene's oracles under strategies: see [`Oracles::layouts`].
@@ -90,14 +77,18 @@ impl StrategyCosts<'_> {
         Ok((oracle, figures))
     }
 
-    fn cost(&self, strategy: Strategy) -> Result<CallCost, OracleError> {
+    /// The cost of a call under `strategy`, which takes half the time of [`StrategyCosts::under`].
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn call(&self, strategy: Strategy) -> Result<CallCost, OracleError> {
         let (oracle, figures) = self.priced(strategy)?;
         Ok(call_cost::cost_by(&oracle, &figures))
     }
 
     /// The cost of each strategy in `of`, computed on all cores.
     fn costs(&self, of: &[Strategy]) -> Result<Vec<(CallCost, Strategy)>, OracleError> {
-        let costs = Cores::All.map(of, 1, |&strategy| self.cost(strategy));
+        let costs = Cores::All.map(of, 1, |&strategy| self.call(strategy));
         let costs = costs.into_iter().zip(of);
         costs
             .map(|(cost, &strategy)| Ok((cost?, strategy)))
@@ -115,7 +106,7 @@ impl StrategyCosts<'_> {
         let anew: Vec<Strategy> = without_garbage.iter().map(|s| s.recomputing()).collect();
         if let Some((cost, strategy)) = kept {
             // Of the strategies that recompute, the one without scopes has few Toffolis, if not the fewest.
-            let few = self.cost(anew[0])?.toffoli;
+            let few = self.call(anew[0])?.toffoli;
             if cost.toffoli <= few - few / 3 {
                 return Ok(strategy);
             }

@@ -90,7 +90,7 @@ impl Bvh {
         let faces = &geometry.faces;
         let boxes = build::boxes(geometry);
         let large = large::choose(&boxes, faces.len());
-        let tree = build::tree(&boxes, &build::axes(geometry), &large);
+        let tree = build::tree(boxes, &build::axes(geometry), &large);
         let place = packet::planes_of_faces(geometry);
         let corners = tree.bounds.as_flattened().iter();
         let greatest = corners.fold(0.0, |most: f64, c| most.max(c.abs()));
@@ -104,12 +104,12 @@ impl Bvh {
             packets: tree
                 .leaves
                 .iter()
-                .map(|leaf| Packet::new(geometry, &place, leaf))
+                .map(|leaf| Packet::new(geometry, &place, leaf.faces()))
                 .collect(),
             balls: tree
                 .balls
                 .iter()
-                .map(|leaf| BallPacket::new(geometry, leaf))
+                .map(|leaf| BallPacket::new(geometry, leaf.faces()))
                 .collect(),
             nodes: tree.nodes,
             levels: tree.levels,

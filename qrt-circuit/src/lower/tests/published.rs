@@ -182,7 +182,7 @@ fn lowerings_are_at_or_below_the_best_published_counts() {
 #[test]
 fn tables_are_read_by_few_toffolis() {
     let mut random = 7_u64;
-    let mut column = |bits: u32| -> Box<[i64]> {
+    let mut column = |bits: u32| -> Arc<[i64]> {
         let mut next = || {
             random = random
                 .wrapping_mul(0x5851_f42d_4c95_7f2d)
@@ -192,7 +192,7 @@ fn tables_are_read_by_few_toffolis() {
         (0..1 << bits).map(|_| next()).collect()
     };
     for bits in [4, 8, 10] {
-        let columns: Arc<[Box<[i64]>]> = Arc::new([column(bits)]);
+        let columns: Arc<[Arc<[i64]>]> = Arc::new([column(bits)]);
         let low = best_low(bits, &columns);
         let toffoli = |low| {
             let address = (0..bits).map(|index| Bit {

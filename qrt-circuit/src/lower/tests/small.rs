@@ -423,10 +423,10 @@ fn tables() {
     for address_bits in 1..=6_u32 {
         for length in [1, 2, 3, 5, 11, 31, 32, 33, 64_usize] {
             let length = length.min(1 << address_bits);
-            let noise: Box<[i64]> = (0..length).map(|_| next() & 0xff).collect();
-            let line: Box<[i64]> = (0..length as i64).map(|place| 3 * place - 7).collect();
-            let few: Box<[i64]> = (0..length).map(|place| i64::from(place % 3 == 0)).collect();
-            let columns: Arc<[Box<[i64]>]> = Arc::new([noise, line, few]);
+            let noise: Arc<[i64]> = (0..length).map(|_| next() & 0xff).collect();
+            let line: Arc<[i64]> = (0..length as i64).map(|place| 3 * place - 7).collect();
+            let few: Arc<[i64]> = (0..length).map(|place| i64::from(place % 3 == 0)).collect();
+            let columns: Arc<[Arc<[i64]>]> = Arc::new([noise, line, few]);
             let wide = (0..=address_bits).map(|low| (low, Style::OutOfPlace));
             for (low, style) in wide.chain([(0, Style::InPlace)]) {
                 let address: Box<[Bit]> = (0..address_bits)

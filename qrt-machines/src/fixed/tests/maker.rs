@@ -4,6 +4,7 @@ use qrt_circuit::{
     Bit, BlockId, Instruction, Multiples, Op, Operand, Parameter, Program, Register, RegisterId,
     Style, Type, When, Word,
 };
+use std::sync::Arc;
 
 /// Random choices keyed by a seed.
 pub(crate) struct Dice(pub(crate) u64);
@@ -279,7 +280,7 @@ impl Maker {
                 let entries = self.dice.between(1, 1 << bits);
                 let columns = (0..2).map(|_| {
                     let column = (0..entries).map(|_| self.dice.word() as i64 >> 3);
-                    column.collect::<Box<[i64]>>()
+                    column.collect::<Arc<[i64]>>()
                 });
                 let columns: Vec<_> = columns.collect();
                 let targets = [self.any_register(), self.any_register()];

@@ -10,7 +10,7 @@ use qrt_core::tracer::{StageBall, StageGeometry};
 /// Number of levels of the binary tree that follow the heuristic; deeper parts are halved.
 const FREE_DEPTH: usize = 32;
 
-/// Bins per axis. The planes between them are the candidates for a cut.
+/// Most bins per axis. The planes between them are the candidates for a cut.
 const BINS: usize = 32;
 
 /// Least distance by which boxes reach beyond their faces, in stage units: more than the rounding
@@ -53,9 +53,23 @@ pub(super) struct Tree {
     pub(super) bounds: [[f64; 3]; 2],
     pub(super) nodes: Vec<Node>,
     pub(super) levels: usize,
-    pub(super) leaves: Vec<Vec<u32>>,
+    pub(super) leaves: Vec<Leaf>,
     /// The spheres of each leaf, by their places after all faces.
-    pub(super) balls: Vec<Vec<u32>>,
+    pub(super) balls: Vec<Leaf>,
+}
+
+/// The faces of a leaf.
+#[derive(Clone, Copy)]
+pub(super) struct Leaf {
+    faces: [u32; FACES],
+    count: u8,
+}
+
+impl Leaf {
+    /// The numbers of the faces.
+    pub(super) fn faces(&self) -> &[u32] {
+        &self.faces[..usize::from(self.count)]
+    }
 }
 
 /// The main axis that stands for spheres, which have none.
@@ -105,12 +119,17 @@ pub(super) fn axes(geometry: &StageGeometry) -> Vec<u8> {
 
 /// Builds the tree over the faces with these `boxes` and main `axes`, except the faces in `large`,
 /// whose numbers are in ascending order.
-pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
-    let all = 0..boxes.len() as u32;
-    let mut faces: Vec<u32> = all
-        .filter(|face| large.binary_search(face).is_err())
+pub(super) fn tree(boxes: Vec<Bounds>, axes: &[u8], large: &[u32]) -> Tree {
+    let numbered = (0..).zip(boxes.into_iter().zip(axes));
+    let mut faces: Vec<Boxed> = numbered
+        .filter(|(number, _)| large.binary_search(number).is_err())
+        .map(|(number, (bounds, &axis))| Boxed {
+            bounds,
+            number,
+            axis,
+        })
         .collect();
-    let bounds = around(boxes, &faces);
+    let bounds = around(faces.iter().map(|face| face.bounds));
     let mut tree = Tree {
         nodes: Vec::new(),
         levels: 0,
@@ -119,15 +138,19 @@ pub(super) fn tree(boxes: &[Bounds], axes: &[u8], large: &[u32]) -> Tree {
         bounds: [bounds.low.to_array(), bounds.high.to_array()],
     };
     if !faces.is_empty() {
-        let mut halving = Halving {
-            boxes,
-            axes,
-            parts: Vec::new(),
-        };
+        let mut halving = Halving { parts: Vec::new() };
         let (root, _) = halving.part(&mut faces, 0);
         tree.node(&halving.parts, root, 1);
     }
     tree
+}
+
+/// A face or sphere with its box. Those of one part of the tree stand side by side in memory.
+#[derive(Clone, Copy)]
+struct Boxed {
+    bounds: Bounds,
+    number: u32,
+    axis: u8,
 }
 
 /// A part of the binary tree: some of the faces.
@@ -138,7 +161,7 @@ struct Subtree {
 
 enum Content {
     /// One packet: its faces and their main axis.
-    Packet { faces: Vec<u32>, axis: u8 },
+    Packet(Leaf, u8),
     /// Two parts, by their numbers. The second entry is indexed by the number of children that a
     /// node has left for both: the number of these that the first part gets at the least cost. If
     /// it is 0, both parts together are one child: a node.
@@ -146,9 +169,7 @@ enum Content {
 }
 
 /// The binary tree, while it grows.
-struct Halving<'a> {
-    boxes: &'a [Bounds],
-    axes: &'a [u8],
+struct Halving {
     parts: Vec<Subtree>,
 }
 
@@ -156,18 +177,24 @@ struct Halving<'a> {
 /// node that may hold the part, from one on.
 type Costs = [f64; WIDE + 1];
 
-impl Halving<'_> {
+impl Halving {
     /// Creates the part of `faces`; returns its number and its costs. `depth` counts the halvings
     /// above it.
-    fn part(&mut self, faces: &mut [u32], depth: usize) -> (u32, Costs) {
-        let bounds = around(self.boxes, faces);
-        let axis = self.axes[faces[0] as usize];
-        let one_axis = faces.iter().all(|&face| self.axes[face as usize] == axis);
+    fn part(&mut self, faces: &mut [Boxed], depth: usize) -> (u32, Costs) {
+        let bounds = around(faces.iter().map(|face| face.bounds));
+        let axis = faces[0].axis;
+        let one_axis = faces.iter().all(|face| face.axis == axis);
         let (content, costs) = if faces.len() <= FACES && one_axis {
-            let faces = faces.to_vec();
-            (Content::Packet { faces, axis }, [bounds.area(); WIDE + 1])
+            let mut leaf = Leaf {
+                faces: [u32::MAX; FACES],
+                count: faces.len() as u8,
+            };
+            for (number, face) in leaf.faces.iter_mut().zip(faces.iter()) {
+                *number = face.number;
+            }
+            (Content::Packet(leaf, axis), [bounds.area(); WIDE + 1])
         } else {
-            let middle = self.split(faces, depth);
+            let middle = split(faces, depth);
             let (left, right) = faces.split_at_mut(middle);
             let (left, of_left) = self.part(left, depth + 1);
             let (right, of_right) = self.part(right, depth + 1);
@@ -191,43 +218,82 @@ impl Halving<'_> {
         self.parts.push(Subtree { bounds, content });
         (self.parts.len() as u32 - 1, costs)
     }
+}
 
-    /// Reorders `faces` and returns the position of the cut: both sides are non-empty.
-    fn split(&self, faces: &mut [u32], depth: usize) -> usize {
-        let Self { boxes, axes, .. } = self;
-        let centres = faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
-            let centre = boxes[face as usize].centre();
-            bounds.with(Bounds {
-                low: centre,
-                high: centre,
-            })
-        });
-        let cut = (depth < FREE_DEPTH).then(|| self.best_cut(faces, centres));
-        match cut.flatten() {
-            Some(Cut::Plane(axis, bin)) => partition(faces, |face| {
-                bin_of(boxes[face as usize].centre()[axis], centres, axis) <= bin
-            }),
-            Some(Cut::MainAxis(axis)) => {
-                partition(faces, |face| usize::from(axes[face as usize]) == axis)
-            }
-            None => {
-                // All centres are in one place, or the tree is too deep: cut into halves.
-                let extent = centres.high - centres.low;
-                let axis = (0..3)
-                    .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
-                    .unwrap_or(0);
-                let key = |face: u32| boxes[face as usize].centre()[axis];
-                let middle = faces.len() / 2;
-                faces.select_nth_unstable_by(middle, |&a, &b| {
-                    key(a).total_cmp(&key(b)).then(a.cmp(&b))
-                });
-                middle
-            }
+/// Reorders `faces` and returns the position of the cut: both sides are non-empty.
+fn split(faces: &mut [Boxed], depth: usize) -> usize {
+    let centres = around(faces.iter().map(|face| {
+        let centre = face.bounds.centre();
+        Bounds {
+            low: centre,
+            high: centre,
+        }
+    }));
+    let bins = Bins::new(centres, faces.len());
+    let cut = (depth < FREE_DEPTH).then(|| bins.best_cut(faces));
+    match cut.flatten() {
+        Some(Cut::Plane(axis, bin)) => partition(faces, |face| bins.of(face)[axis] <= bin),
+        Some(Cut::MainAxis(axis)) => partition(faces, |face| usize::from(face.axis) == axis),
+        None => {
+            // All centres are in one place, or the tree is too deep: cut into halves.
+            let extent = centres.high - centres.low;
+            let axis = (0..3)
+                .max_by(|&a, &b| extent[a].total_cmp(&extent[b]))
+                .unwrap_or(0);
+            let key = |face: &Boxed| face.bounds.centre()[axis];
+            let middle = faces.len() / 2;
+            faces.select_nth_unstable_by(middle, |a, b| {
+                key(a).total_cmp(&key(b)).then(a.number.cmp(&b.number))
+            });
+            middle
+        }
+    }
+}
+
+/// Bins of equal width along each axis, into which the centres of boxes fall.
+struct Bins {
+    low: DVec3,
+    /// Bins per unit of length; 0 along an axis on which all centres agree.
+    per_unit: DVec3,
+    /// Number of bins of each axis, at most [`BINS`].
+    count: usize,
+}
+
+impl Bins {
+    /// Creates the bins for `faces` faces whose centres are within `centres`.
+    fn new(centres: Bounds, faces: usize) -> Self {
+        let count = faces.clamp(4, BINS);
+        let extent = centres.high - centres.low;
+        let per_unit = DVec3::splat(count as f64) / extent;
+        // The extent of a single place, or one so small that the quotient overflows.
+        let is_usable = per_unit.cmplt(DVec3::INFINITY);
+        Self {
+            low: centres.low,
+            per_unit: DVec3::select(is_usable, per_unit, DVec3::ZERO),
+            count,
         }
     }
 
+    /// Returns the bin along each axis.
+    fn of(&self, face: &Boxed) -> [usize; 3] {
+        let places = (face.bounds.centre() - self.low) * self.per_unit;
+        places
+            .to_array()
+            .map(|place| (place as usize).min(self.count - 1))
+    }
+
     /// Returns the cut of least cost that has faces on both sides, if there is one.
-    fn best_cut(&self, faces: &[u32], centres: Bounds) -> Option<Cut> {
+    fn best_cut(&self, faces: &[Boxed]) -> Option<Cut> {
+        let mut bins = [[Group::EMPTY; BINS]; 3];
+        let mut kinds = [Group::EMPTY; KINDS];
+        for face in faces {
+            let group = Group::of(face);
+            for (bins, bin) in bins.iter_mut().zip(self.of(face)) {
+                bins[bin] = bins[bin].with(group);
+            }
+            let kind = &mut kinds[usize::from(face.axis)];
+            *kind = kind.with(group);
+        }
         let mut best: Option<(f64, Cut)> = None;
         let mut consider = |left: &Group, right: &Group, cut: Cut| {
             if left.packets() > 0.0 && right.packets() > 0.0 {
@@ -237,45 +303,24 @@ impl Halving<'_> {
                 }
             }
         };
-        let group = |face: u32| {
-            let mut counts = [0; KINDS];
-            counts[usize::from(self.axes[face as usize])] = 1;
-            Group {
-                bounds: self.boxes[face as usize],
-                counts,
-            }
-        };
-        for axis in 0..3 {
-            if centres.high[axis] <= centres.low[axis] {
+        for (axis, bins) in bins.iter().enumerate() {
+            if self.per_unit[axis] <= 0.0 {
                 continue;
             }
-            let mut bins = [Group::EMPTY; BINS];
-            for &face in faces {
-                let group = group(face);
-                let bin = &mut bins[bin_of(group.bounds.centre()[axis], centres, axis)];
-                *bin = bin.with(group);
-            }
             let mut right = [Group::EMPTY; BINS];
-            for bin in (0..BINS - 1).rev() {
+            for bin in (0..self.count - 1).rev() {
                 right[bin] = right[bin + 1].with(bins[bin + 1]);
             }
             let mut left = Group::EMPTY;
-            for bin in 0..BINS - 1 {
+            for bin in 0..self.count - 1 {
                 left = left.with(bins[bin]);
                 consider(&left, &right[bin], Cut::Plane(axis, bin));
             }
         }
         for axis in 0..KINDS {
-            let (mut left, mut right) = (Group::EMPTY, Group::EMPTY);
-            for &face in faces {
-                let side = if usize::from(self.axes[face as usize]) == axis {
-                    &mut left
-                } else {
-                    &mut right
-                };
-                *side = side.with(group(face));
-            }
-            consider(&left, &right, Cut::MainAxis(axis));
+            let others = (0..KINDS).filter(|kind| *kind != axis);
+            let others = others.fold(Group::EMPTY, |all, kind| all.with(kinds[kind]));
+            consider(&kinds[axis], &others, Cut::MainAxis(axis));
         }
         best.map(|(_, cut)| cut)
     }
@@ -303,6 +348,15 @@ impl Group {
         counts: [0; KINDS],
     };
 
+    fn of(face: &Boxed) -> Self {
+        let mut counts = [0; KINDS];
+        counts[usize::from(face.axis)] = 1;
+        Self {
+            bounds: face.bounds,
+            counts,
+        }
+    }
+
     fn with(self, other: Self) -> Self {
         Self {
             bounds: self.bounds.with(other.bounds),
@@ -321,10 +375,10 @@ impl Group {
 }
 
 /// Moves the faces for which `left` is true to the front, and returns their number.
-fn partition(faces: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
+fn partition(faces: &mut [Boxed], left: impl Fn(&Boxed) -> bool) -> usize {
     let mut middle = 0;
     for i in 0..faces.len() {
-        if left(faces[i]) {
+        if left(&faces[i]) {
             faces.swap(i, middle);
             middle += 1;
         }
@@ -348,12 +402,12 @@ impl Tree {
         for (place, part) in children.into_iter().enumerate() {
             let Subtree { bounds, content } = &parts[part as usize];
             let child = match content {
-                Content::Packet { faces, axis: ROUND } => {
-                    self.balls.push(faces.clone());
+                Content::Packet(leaf, ROUND) => {
+                    self.balls.push(*leaf);
                     Child::Balls(self.balls.len() as u32 - 1)
                 }
-                Content::Packet { faces, axis } => {
-                    self.leaves.push(faces.clone());
+                Content::Packet(leaf, axis) => {
+                    self.leaves.push(*leaf);
                     Child::Packet(self.leaves.len() as u32 - 1, *axis)
                 }
                 Content::Halves(..) => Child::Node(self.node(parts, part, level + 1)),
@@ -378,7 +432,7 @@ fn children_of(parts: &[Subtree], part: u32, most: usize, children: &mut Vec<u32
             children_of(parts, left, share, children);
             children_of(parts, right, most - share, children);
         }
-        Content::Packet { .. } | Content::Halves(..) => children.push(part),
+        Content::Packet(..) | Content::Halves(..) => children.push(part),
     }
 }
 
@@ -392,13 +446,6 @@ fn below(number: f64) -> f32 {
     }
 }
 
-pub(super) fn around(boxes: &[Bounds], faces: &[u32]) -> Bounds {
-    faces.iter().fold(Bounds::EMPTY, |bounds, &face| {
-        bounds.with(boxes[face as usize])
-    })
-}
-
-fn bin_of(centre: f64, centres: Bounds, axis: usize) -> usize {
-    let fraction = (centre - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
-    ((fraction * BINS as f64) as usize).min(BINS - 1)
+pub(super) fn around(boxes: impl IntoIterator<Item = Bounds>) -> Bounds {
+    boxes.into_iter().fold(Bounds::EMPTY, Bounds::with)
 }

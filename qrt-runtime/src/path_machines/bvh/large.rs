@@ -30,16 +30,19 @@ pub(super) struct LargeFace {
 /// the box around the others is smaller, and the walks that this saves cost more than the large
 /// faces.
 pub(super) fn choose(boxes: &[Bounds], polygons: usize) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..polygons as u32).collect();
-    let area = |face: u32| boxes[face as usize].area();
-    order.sort_by(|&a, &b| area(b).total_cmp(&area(a)));
+    let areas = boxes[..polygons].iter().map(|bounds| bounds.area());
+    let mut order: Vec<(f64, u32)> = areas.zip(0..).collect();
     let most = MOST.min(order.len());
-    let mut around = build::around(boxes, &order[most..]);
-    for &ball in &boxes[polygons..] {
-        around = around.with(ball);
+    let by_area = |a: &(f64, u32), b: &(f64, u32)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+    if most < order.len() {
+        order.select_nth_unstable_by(most, by_area);
     }
+    let others = order.drain(most..).map(|(_, face)| boxes[face as usize]);
+    let mut around = build::around(others.chain(boxes[polygons..].iter().copied()));
+    order.sort_unstable_by(by_area);
+    let mut order: Vec<u32> = order.into_iter().map(|(_, face)| face).collect();
     let mut areas = vec![around.area()];
-    for &face in order[..most].iter().rev() {
+    for &face in order.iter().rev() {
         around = around.with(boxes[face as usize]);
         areas.push(around.area());
     }
