@@ -35,16 +35,19 @@ qrt! {
     }
 }
 
-/// Flips `good` if a ray meets the material `A`, and the next one the material `B`.
+const SILVER: u32 = Corner::MATERIALS.silver;
+const RED: u32 = Corner::MATERIALS.red;
+
+/// Flips `good` if a ray meets the mirror, and the next one the red wall.
 #[reversible]
-fn by_way_of<const A: u32, const B: u32>(first: &UInt<3>, second: &UInt<3>, good: &mut Bool) {
-    good ^= first == A && second == B;
+fn sees_red(first: &UInt<3>, second: &UInt<3>, good: &mut Bool) {
+    good ^= first == SILVER && second == RED;
 }
 
-/// Flips `good` if a ray meets the material `A`.
+/// Flips `good` if a ray meets the mirror.
 #[reversible]
-fn on<const A: u32>(material: &UInt<3>, good: &mut Bool) {
-    good ^= material == A;
+fn is_mirrored(material: &UInt<3>, good: &mut Bool) {
+    good ^= material == SILVER;
 }
 
 /// Flips `good` if the first two rays together are at most four units long, and both meet a face.
@@ -58,9 +61,6 @@ fn near(first: &UFixed<4, 11>, second: &UFixed<4, 11>, on: &Bool, good: &mut Boo
     apply! { good ^= on & (way <= 4); }
 }
 
-const SILVER: u32 = Corner::MATERIALS.silver;
-const RED: u32 = Corner::MATERIALS.red;
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // One pixel, at the edge of the wall's reflection in the mirror: how many of its paths go on to
     // the red wall?
@@ -72,7 +72,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..RenderOptions::default()
     };
     let counted = count_where::<Corner>(&one, |m, path, good| {
-        by_way_of::<SILVER, RED, _>(m, &path.ray0.material, &path.ray1.material, good);
+        sees_red(m, &path.ray0.material, &path.ray1.material, good);
     })?;
     let (low, high) = counted.interval();
     println!(
@@ -117,7 +117,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // A picture of the light that arrives by the mirror.
     let rendered = render_where::<Corner>(&film, |m, path, good| {
-        on::<SILVER, _>(m, &path.ray0.material, good);
+        is_mirrored(m, &path.ray0.material, good);
     })?;
     rendered.save("mirror.png")?;
     println!("mirror.png: {} queries", rendered.total_queries());

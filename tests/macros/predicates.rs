@@ -93,14 +93,18 @@ qrt! {
 const RED: u32 = Corner::MATERIALS.red;
 const SILVER: u32 = Corner::MATERIALS.silver;
 
+struct Material<const A: u32>;
+
 #[reversible]
-fn on<const A: u32>(material: &UInt<3>, good: &mut Bool) {
-    good ^= material == A;
+impl<const A: u32> Material<A> {
+    fn is_met(material: &UInt<3>, good: &mut Bool) {
+        good ^= material == A;
+    }
 }
 
 #[reversible]
-fn by_way_of<const A: u32, const B: u32>(first: &UInt<3>, second: &UInt<3>, good: &mut Bool) {
-    good ^= first == A && second == B;
+fn red_in_the_mirror(first: &UInt<3>, second: &UInt<3>, good: &mut Bool) {
+    good ^= first == SILVER && second == RED;
 }
 
 /// Flips `good` if the way to the first two faces is shorter than five units and leaves the first upwards.
@@ -153,12 +157,12 @@ type Plain = fn(&TracedPath<'static>) -> bool;
 /// A predicate in a circuit, and the same predicate of a path in floating point.
 const PREDICATES: [(Code, Plain); 4] = [
     (
-        |m, path, good| on::<RED, _>(m, &path.ray1.material, good),
+        |m, path, good| Material::<RED>::is_met(m, &path.ray1.material, good),
         |path| meets(path, 1) == Some("red"),
     ),
     (
         |m, path, good| {
-            by_way_of::<SILVER, RED, _>(m, &path.ray0.material, &path.ray1.material, good);
+            red_in_the_mirror(m, &path.ray0.material, &path.ray1.material, good);
         },
         |path| meets(path, 0) == Some("silver") && meets(path, 1) == Some("red"),
     ),
@@ -385,11 +389,11 @@ fn pictures(model: Model) -> [Rendered; 3] {
         m.xor_into(good.register_mut(), Operand::Constant(1), None);
     });
     let by_mirror = render_where::<Corner>(&options, |m, path, good| {
-        on::<SILVER, _>(m, &path.ray0.material, good);
+        Material::<SILVER>::is_met(m, &path.ray0.material, good);
     });
     let otherwise = render_where::<Corner>(&options, |m, path, good| {
         m.xor_into(good.register_mut(), Operand::Constant(1), None);
-        on::<SILVER, _>(m, &path.ray0.material, good);
+        Material::<SILVER>::is_met(m, &path.ray0.material, good);
     });
     [all, by_mirror, otherwise].map(Result::unwrap)
 }
@@ -429,7 +433,7 @@ fn estimators_tell_a_fraction_an_interval_and_their_queries() {
     };
     let count = |options: &RenderOptions<'_>| -> PredicateCount {
         count_where::<Corner>(options, |m, path, good| {
-            on::<RED, _>(m, &path.ray1.material, good);
+            Material::<RED>::is_met(m, &path.ray1.material, good);
         })
         .unwrap()
     };
@@ -474,8 +478,8 @@ fn a_predicate_costs_what_it_reads_and_no_more() {
         (cost.toffoli, qubits)
     };
     // The first ray's material alone needs no second ray, no throughput and no comparator.
-    let first = cost(|m, path, good| on::<RED, _>(m, &path.ray0.material, good));
-    let second = cost(|m, path, good| on::<RED, _>(m, &path.ray1.material, good));
+    let first = cost(|m, path, good| Material::<RED>::is_met(m, &path.ray0.material, good));
+    let second = cost(|m, path, good| Material::<RED>::is_met(m, &path.ray1.material, good));
     assert!(10 * first.0 < 4 * Corner::TOFFOLI, "{first:?}");
     assert!(
         first.0 < second.0 && first.1 < second.1,
