@@ -7,20 +7,33 @@
 mod helps;
 
 use qrt::scene::syntax::codes;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 #[test]
 fn wrong_programs_do_not_compile() {
-    // trybuild compiles the programs as a package of their own, and `qrt!` looks for files beside its
-    // manifest.
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
-    let scenes = target.join("tests/trybuild/qrt-compile-fail/scenes");
-    std::fs::create_dir_all(&scenes).unwrap();
-    for scene in ["faulty.yaml", "lit.yaml", "outside.obj", "triangle.obj"] {
-        let own = Path::new("ui/scenes").join(scene);
-        std::fs::copy(own, scenes.join(scene)).unwrap();
-    }
+    put_scenes_beside_the_programs();
     trybuild::TestCases::new().compile_fail("ui/*.rs");
+}
+
+/// Copies the scenes and meshes of the programs to the folder at which `qrt!` looks for files. trybuild compiles
+/// the programs as a package of their own, whose manifest is there.
+fn put_scenes_beside_the_programs() {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    let package = target.join("tests/trybuild/qrt-compile-fail");
+    std::fs::create_dir_all(package.join("scenes")).unwrap();
+    for (own, there) in [
+        ("faulty.yaml", "scenes/faulty.yaml"),
+        ("lit.yaml", "scenes/lit.yaml"),
+        ("outside.obj", "scenes/outside.obj"),
+        ("triangle.obj", "scenes/triangle.obj"),
+        // By the names that helps have.
+        ("lit.yaml", "scene.yaml"),
+        ("triangle.obj", "mesh.obj"),
+        ("triangle.obj", "knot"),
+    ] {
+        std::fs::copy(Path::new("ui/scenes").join(own), package.join(there)).unwrap();
+    }
 }
 
 #[test]
@@ -71,6 +84,25 @@ fn every_error_has_a_help_line() {
     }
     without.sort();
     assert_eq!(without, OF_THE_LANGUAGE);
+}
+
+#[test]
+fn no_place_has_two_errors() {
+    let mut doubled = Vec::new();
+    for entry in std::fs::read_dir("ui").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "stderr") {
+            let text = format!("\n{}", std::fs::read_to_string(&path).unwrap());
+            let errors = text.split("\nerror").skip(1);
+            let place = |error: &str| Some(error.split_once("--> ")?.1.lines().next()?.to_owned());
+            let places: Vec<_> = errors.filter_map(place).collect();
+            let distinct: BTreeSet<_> = places.iter().collect();
+            if places.is_empty() || distinct.len() < places.len() {
+                doubled.push(path);
+            }
+        }
+    }
+    assert!(doubled.is_empty(), "{doubled:?}");
 }
 
 fn is_of_macros(code: &str) -> bool {

@@ -1,12 +1,16 @@
 //! Tests that what the help of an error says is taken when it is written: the programs of `ui` with
 //! their helps applied compile.
 
+#[path = "scene_helps.rs"]
+mod scene_helps;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A program with `#[reversible]`, and the texts that its helps replace.
+/// A program, and the texts that its helps replace.
 type Applied = (&'static str, &'static [(&'static str, &'static str)]);
 
+/// Programs with `#[reversible]`.
 const APPLIED: &[Applied] = &[
     ("add_to_bits", &[("a[0..4] += b", "a[0..4] ^= b")]),
     (
@@ -134,6 +138,10 @@ const APPLIED: &[Applied] = &[
         )],
     ),
     ("bits_of_bits", &[("a[0..4][1]", "a[1]")]),
+    (
+        "bits_before_the_point",
+        &[("<const I: u32", "<const I: i32")],
+    ),
     (
         "break",
         &[(
@@ -610,6 +618,15 @@ const APPLIED: &[Applied] = &[
             "    c += SQUARES[0];\n    c += SQUARES[i[0..2]];\n    c += SQUARES[w[0..2]];\n    c += SQUARES[k[0..2]];",
         )],
     ),
+    (
+        "table_of_other_entries",
+        &[
+            ("longer(k: &UInt<3>", "longer(k: &UInt<2>"),
+            ("shorter(k: &Bool", "shorter(k: &UInt<2>"),
+            ("SQUARES[4]", "SQUARES[3]"),
+            ("[1, -1, 1, -1]", "[1, 0, 1, 0]"),
+        ],
+    ),
     ("target_is_a_sum", &[("a + b += 1", "a[0..4] ^= 1")]),
     (
         "too_few_arguments",
@@ -673,6 +690,10 @@ const APPLIED: &[Applied] = &[
     ),
     ("width_is_no_constant", &[("UInt<width>", "UInt<8>")]),
     (
+        "width_of_self",
+        &[("UInt<{ Self::SUM + 1 }>", "UInt<{ W + 2 }>")],
+    ),
+    (
         "within_alone",
         &[(
             "within! { b += a; }\n    b += 1;",
@@ -695,9 +716,12 @@ const NOT_APPLIED: [(&str, &str); 1] = [(
     "the callee takes a width as its own constant: which function to write depends on the author",
 )];
 
+/// Codes of helps that are not to be written as they are.
+const PLACEHOLDERS: [&str; 2] = ["(x,y,z)", "rgb(r,g,b)"];
+
 /// Returns the codes in backticks of all helps of a program, as far as they are complete.
 fn helped(name: &str) -> Vec<String> {
-    let shown = std::fs::read_to_string(format!("ui/reversible_{name}.stderr")).unwrap();
+    let shown = std::fs::read_to_string(format!("ui/{name}.stderr")).unwrap();
     let says = |line: &&str| line.contains("help: write") && !line.contains("such as");
     let helps = shown.lines().filter(says);
     let codes = helps.flat_map(|line| line.split('`').skip(1).step_by(2));
@@ -705,6 +729,7 @@ fn helped(name: &str) -> Vec<String> {
     let parts = parts.map(|part| squeezed(part).trim_end_matches(['{', '(']).to_owned());
     parts
         .filter(|part| part.len() > 1 && part.contains(char::is_alphanumeric))
+        .filter(|part| !PLACEHOLDERS.contains(&part.as_str()))
         .collect()
 }
 
@@ -716,7 +741,7 @@ fn squeezed(text: &str) -> String {
 
 /// Returns a program with its helps applied.
 fn applied(name: &str, edits: &[(&str, &str)]) -> String {
-    let mut text = std::fs::read_to_string(format!("ui/reversible_{name}.rs")).unwrap();
+    let mut text = std::fs::read_to_string(format!("ui/{name}.rs")).unwrap();
     for (from, to) in edits {
         assert_eq!(text.matches(from).count(), 1, "{name}: {from}\n{text}");
         text = text.replace(from, to);
@@ -750,38 +775,50 @@ note: the lint level is defined here
     )
 }
 
-/// Every program of `#[reversible]` is in one of the two lists, and all that are applied are one program.
+/// Every program of a macro is in one of its two lists, and all that are applied are one program.
 #[test]
 fn helps_are_taken_when_they_are_written() {
-    let mut named: Vec<String> = Vec::new();
-    for entry in std::fs::read_dir("ui").unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_str().unwrap();
-        if let (Some(name), true) = (
-            name.strip_prefix("reversible_"),
-            path.extension().is_some_and(|end| end == "rs"),
-        ) {
-            named.push(name.to_owned());
-        }
-    }
-    named.sort();
-    let mut listed: Vec<&str> = APPLIED.iter().map(|(name, _)| *name).collect();
-    listed.extend(NOT_APPLIED.iter().map(|(name, _)| *name));
-    listed.sort_unstable();
-    assert_eq!(named, listed);
-
+    let lists = [
+        ("reversible", APPLIED, &NOT_APPLIED[..]),
+        ("qrt", scene_helps::APPLIED, &scene_helps::NOT_APPLIED[..]),
+    ];
     // A lint is denied that is reported where types and borrows are right, too: with this error alone, they are. So
     // nothing need be built. Assertions of the compiler about numbers that are known only then are not reached.
     let mut all = String::from(
-        "#![allow(unused)]\n#![deny(non_camel_case_types)]\nstruct the_rest_is_right;\n\n",
+        "#![allow(unused, deprecated)]\n#![deny(non_camel_case_types)]\nstruct the_rest_is_right;\n\n",
     );
-    for (name, edits) in APPLIED {
-        let text = applied(name, edits).replace("\nfn main()", "\npub fn main()");
-        writeln!(all, "mod r#{name} {{\n{text}}}\n").unwrap();
+    for (family, applied_here, not_applied) in lists {
+        let mut listed: Vec<&str> = applied_here.iter().map(|(name, _)| *name).collect();
+        listed.extend(not_applied.iter().map(|(name, _)| *name));
+        listed.sort_unstable();
+        assert_eq!(programs(family), listed);
+        for (name, edits) in applied_here {
+            let name = format!("{family}_{name}");
+            let text = applied(&name, edits).replace("\nfn main()", "\npub fn main()");
+            writeln!(all, "mod {name} {{\n{text}}}\n").unwrap();
+        }
     }
     all += "fn main() {}\n";
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("helps.rs");
     std::fs::write(&path, all).unwrap();
     std::fs::write(path.with_extension("stderr"), alone(&path)).unwrap();
+    super::put_scenes_beside_the_programs();
     trybuild::TestCases::new().compile_fail(path);
+}
+
+/// Returns the names of the programs of a macro, without `family_` before them.
+fn programs(family: &str) -> Vec<String> {
+    let mut named: Vec<String> = Vec::new();
+    for entry in std::fs::read_dir("ui").unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let name = name
+            .strip_prefix(family)
+            .and_then(|name| name.strip_prefix('_'));
+        if let (Some(name), true) = (name, path.extension().is_some_and(|end| end == "rs")) {
+            named.push(name.to_owned());
+        }
+    }
+    named.sort();
+    named
 }

@@ -89,11 +89,31 @@ fn widths_are_computed_from_constants() {
 
 /// Fixed-point numbers whose integer bits are a constant of the function, too.
 #[reversible]
-fn double<const I: u32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<{ I + 1 }, F>) {
+fn double<const I: i32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<{ I + 1 }, F>) {
     y += x << 1;
 }
 
-/// The same with the type that Rust finds by the registers.
+#[reversible]
+fn double_a_number(x: &Fixed<3, 2>, y: &mut Fixed<4, 2>) {
+    double(&x, &mut y);
+}
+
+/// A constant that is a width, too.
+#[reversible]
+fn add_whole<const W: u32>(n: &UInt<W>, y: &mut UFixed<W, 2>) {
+    y += n;
+}
+
+#[reversible]
+fn add_three_bits(n: &UInt<3>, y: &mut UFixed<3, 2>) {
+    add_whole(&n, &mut y);
+}
+
+#[reversible]
+fn add_three_bits_back(n: &UInt<3>, y: &mut UFixed<3, 2>) {
+    add_whole_inverse(&n, &mut y);
+}
+
 #[reversible]
 fn add_numbers<const I: i32, const F: u32>(x: &Fixed<I, F>, y: &mut Fixed<I, F>) {
     let mut twice: Fixed<{ I + 1 }, F> = 0;
@@ -124,8 +144,17 @@ fn bits_on_both_sides_of_the_point_are_inferred() {
 }
 
 #[test]
+fn bits_before_the_point_may_be_those_of_an_integer() {
+    let programs = [add_three_bits_program, add_three_bits_back_program];
+    check(programs, &all(&[3, 5]), |s| {
+        vec![s[0], (s[1] + 4 * s[0]) % 32]
+    });
+}
+
+#[test]
 fn bits_before_the_point_are_computed() {
-    let program = double_program::<3, 2>(Style::InPlace);
+    let program = double_a_number_program(Style::InPlace);
+    assert_eq!(program, double_program::<3, 2>(Style::InPlace));
     let widths: Vec<u32> = program
         .registers
         .iter()

@@ -30,6 +30,11 @@ impl Constants {
         }
     }
 
+    /// Makes a constant an `i32`.
+    pub(super) fn sign(&mut self, name: &Ident) {
+        self.signed.push(name.clone());
+    }
+
     /// Returns these constants and others after them.
     pub(super) fn followed_by(&self, others: &Self) -> Self {
         let mut all = self.clone();

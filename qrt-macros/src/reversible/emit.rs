@@ -5,14 +5,15 @@ mod formats;
 
 use super::constants::Constants;
 use super::ir::{
-    Array, Bit, NumberKind, Place, Register, Routine, Signature, Statement, StatementKind as K,
-    Term, Update, inverse,
+    Array, Bit, Demand, NumberKind, Place, Register, Routine, Signature, Statement,
+    StatementKind as K, Term, Update, inverse,
 };
+use super::outside;
 use super::source::as_written;
 use super::value::{Temporaries, own};
 use crate::surroundings;
 use arguments::{from_array, handed};
-use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, LineColumn, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use std::rc::Rc;
 use syn::{ExprPath, Ident, PathArguments};
@@ -25,12 +26,10 @@ use syn::{ExprPath, Ident, PathArguments};
 /// once. That takes the function's path, which depends on the code around it: see
 /// [`surroundings::path`].
 pub(super) fn routine(routine: &Routine) -> TokenStream {
-    let demands = routine.demands.iter().map(|demand| {
-        let (condition, message) = (&demand.condition, &demand.message);
-        let span = Span::mixed_site().located_at(demand.span);
-        quote_spanned!(span=> const { ::core::assert!(#condition, #message) };)
-    });
-    let demands: TokenStream = demands.collect();
+    let is_item = |demand: &&Demand| is_item(demand, &routine.signature);
+    let (certain, others): (Vec<_>, Vec<_>) = routine.demands.iter().partition(is_item);
+    let others = others.into_iter().map(asserted);
+    let demands = quote!(#(const { #others };)*);
     let formats = formats::declared(routine);
     let tables: TokenStream = routine
         .tables
@@ -72,9 +71,12 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
     let (host, machine) = (own("host"), own("machine"));
     let undone = inverse(&routine.body);
     let both = {
+        // The compiler evaluates an item without a call of the function.
+        let certain = by_place(&certain);
         let forward = emitted(&kind, &routine.body, false);
         let backward = emitted(&kind, &undone, true);
         let code = quote! {
+            #(const _: () = { #certain };)*
             #agree
             let #machine = ::qrt::circuit::Host::machine(#host);
             if #kind::UNDONE { #backward } else { #forward }
@@ -119,6 +121,44 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
         body(&recorder, code)
     };
     functions(&routine.signature, &both, &backward, &forward)
+}
+
+/// True if a demand can stand in an item of its own, which names no generics around it. Those of an `impl`
+/// are not known where the attribute is the function's: there, any name like a constant's may be one.
+fn is_item(demand: &Demand, signature: &Signature) -> bool {
+    let condition = &demand.condition;
+    let is_free = || {
+        let path = surroundings::path(&signature.name);
+        path.is_some_and(|path| signature.name == path.to_string())
+    };
+    outside::dependence(condition.clone(), &signature.constants).is_none()
+        && (!outside::names_types(condition.clone()) || signature.complete || is_free())
+}
+
+/// Returns the assertion of a demand, at the place that needs it.
+fn asserted(demand: &Demand) -> TokenStream {
+    let (condition, message) = (&demand.condition, &demand.message);
+    let span = Span::mixed_site().located_at(demand.span);
+    quote_spanned!(span=> ::core::assert!(#condition, #message))
+}
+
+/// Returns the assertions of demands, those of one place together, so that the compiler reports the first of
+/// them that does not hold.
+fn by_place(demands: &[&Demand]) -> Vec<TokenStream> {
+    let mut places: Vec<(LineColumn, TokenStream)> = Vec::new();
+    for demand in demands {
+        let assertion = asserted(demand);
+        let assertion = quote!(#assertion;);
+        let place = demand.span.start();
+        match places.iter_mut().find(|(known, _)| *known == place) {
+            Some((_, assertions)) => assertions.extend(assertion),
+            None => places.push((place, assertion)),
+        }
+    }
+    places
+        .into_iter()
+        .map(|(_, assertions)| assertions)
+        .collect()
 }
 
 /// Returns the function, as functions beside it call it; `None` if its path is not known, or if one

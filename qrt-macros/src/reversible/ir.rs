@@ -31,6 +31,8 @@ pub(super) struct Signature {
     pub(super) name: Ident,
     /// True if it is a method of a trait.
     pub(super) in_trait: bool,
+    /// True if `constants` are all generics around the function, as far as the attribute shows.
+    pub(super) complete: bool,
     /// The name of the machine's type, which the function does not mention.
     pub(super) machine: Ident,
     /// The constants that the function itself is generic over.

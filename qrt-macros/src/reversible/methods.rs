@@ -16,13 +16,16 @@ use syn::{
 
 /// Returns all Rust that an `impl` expands to.
 pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStream {
+    let before = problems.count();
+    let constants = signature::constants(
+        &block.generics,
+        "an `impl` of reversible functions",
+        problems,
+    );
     let around = Around {
-        constants: signature::constants(
-            &block.generics,
-            "an `impl` of reversible functions",
-            problems,
-        ),
+        constants,
         in_trait: block.trait_.is_some(),
+        complete: problems.count() == before,
     };
     let mut others = Vec::new();
     let mut functions = TokenStream::new();
@@ -77,6 +80,7 @@ pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> Toke
             problems,
         ),
         in_trait: true,
+        complete: true,
     };
     let mut others = Vec::new();
     let mut functions = TokenStream::new();

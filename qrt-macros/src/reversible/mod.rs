@@ -86,6 +86,8 @@ struct Around {
     constants: Constants,
     /// True if it is a method of a trait.
     in_trait: bool,
+    /// True if `constants` are all generics around the function.
+    complete: bool,
 }
 
 /// Returns the routine of a function, if it has no errors.

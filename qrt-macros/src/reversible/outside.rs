@@ -4,6 +4,7 @@
 use super::dim::Linear;
 use super::ir::Demand;
 use super::source::{as_written, begin, text};
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 use syn::{Ident, Path};
 
@@ -64,10 +65,29 @@ pub(super) fn demand(demands: &mut Vec<Demand>, mut new: Demand) {
     }
 }
 
+/// Returns a name in these tokens that an item within the function cannot use: `Self`, or one of the
+/// constants that the function is generic over.
+pub(super) fn dependence(tokens: TokenStream, constants: &[Ident]) -> Option<Ident> {
+    tokens.into_iter().find_map(|token| match token {
+        TokenTree::Ident(name) => (name == "Self" || constants.contains(&name)).then_some(name),
+        TokenTree::Group(group) => dependence(group.stream(), constants),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => None,
+    })
+}
+
 /// True if a name is written like a constant's.
 pub(super) fn is_constant(name: &Ident) -> bool {
     let name = name.to_string();
     name.contains(|letter: char| letter.is_uppercase()) && !name.contains(char::is_lowercase)
+}
+
+/// True if any name in these tokens is written like a type's or a constant's.
+pub(super) fn names_types(tokens: TokenStream) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(name) => is_type(&name),
+        TokenTree::Group(group) => names_types(group.stream()),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// True if a name is written like a type's.

@@ -10,9 +10,10 @@ use proc_macro2::{TokenStream, TokenTree};
 use qrt_scene::syntax::codes;
 use quote::{ToTokens, format_ident, quote};
 use std::rc::Rc;
+use syn::punctuated::Punctuated;
 use syn::{
     BinOp, Expr, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, Stmt,
-    Type,
+    Token, Type, TypeArray, TypeReference,
 };
 
 /// Reads the signature. Its faulty parts are left out of the result.
@@ -58,7 +59,19 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
             "take `out: &mut ..` and write `out += ..`",
         );
     }
-    let own = constants(&function.sig.generics, "a reversible function", problems);
+    let mut own = constants(&function.sig.generics, "a reversible function", problems);
+    for parameter in &function.sig.generics.params {
+        if let GenericParam::Const(constant) = parameter
+            && is_named(&constant.ty, "u32")
+            && is_before_points(&constant.ident, &signature.inputs)
+        {
+            let name = &constant.ident;
+            let message = format!("`{name}` counts the bits before a point, and must be an `i32`");
+            let help = format!("write `const {name}: i32`, which a call finds by its registers");
+            problems.add(codes::REV_GENERIC, &constant.ty, &message, &help);
+            own.sign(name);
+        }
+    }
     let constants = around.constants.followed_by(&own);
     let mut demands = Vec::new();
     for name in constants.signed() {
@@ -111,6 +124,7 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
         visibility: function.vis.clone(),
         name: signature.ident.clone(),
         in_trait: around.in_trait,
+        complete: around.complete,
         machine: machine_name(function, &constants),
         own,
         constants,
@@ -167,6 +181,41 @@ pub(super) fn constants(
         );
     }
     constants
+}
+
+/// True if parameters have a constant in their formats alone, and only as the bits before a point. Rust's
+/// type of these bits is `i32`, and no call finds a constant of another type.
+fn is_before_points(name: &Ident, inputs: &Punctuated<FnArg, Token![,]>) -> bool {
+    let mut found = false;
+    for input in inputs {
+        let FnArg::Typed(input) = input else {
+            continue;
+        };
+        let mut ty = &*input.ty;
+        while let Type::Reference(TypeReference { elem, .. })
+        | Type::Array(TypeArray { elem, .. }) = ty
+        {
+            ty = elem;
+        }
+        let Type::Path(path) = ty else {
+            continue;
+        };
+        let Some(last) = path.path.segments.last() else {
+            continue;
+        };
+        let PathArguments::AngleBracketed(sizes) = &last.arguments else {
+            continue;
+        };
+        for (place, size) in sizes.args.iter().enumerate() {
+            if matches!(size, GenericArgument::Type(Type::Path(size)) if size.path.is_ident(name)) {
+                found = place == 0 && (last.ident == "Fixed" || last.ident == "UFixed");
+                if !found {
+                    return false;
+                }
+            }
+        }
+    }
+    found
 }
 
 fn parameter(
@@ -315,8 +364,8 @@ pub(super) fn format(
         .map(|size| bits(size, constants, demands))
         .collect();
     let Some(read) = read else {
-        let computed = sizes.iter().any(|size| names_any(quote!(#size), constants));
-        let help = if computed {
+        let dependent = |size| outside::dependence(quote!(#size), constants).is_some();
+        let help = if sizes.iter().any(dependent) {
             "write a sum of constants and their multiples, such as `UInt<{ 2 * W + 1 }>`, or take the \
              width as a constant of its own, `const V: u32`"
         } else {
@@ -405,6 +454,12 @@ fn width(expression: &Expr, constants: &Constants, demands: &mut Vec<Demand>) ->
         },
         Expr::Path(path) => match path.path.get_ident() {
             Some(name) if constants.contains(name) => Some(constants.linear(name)),
+            // A type of Rust's cannot have it as a width.
+            _ if !constants.is_empty()
+                && outside::dependence(quote!(#path), constants).is_some() =>
+            {
+                None
+            }
             _ => outside::constant(&path.path, demands),
         },
         Expr::Binary(binary) => {

@@ -6,7 +6,7 @@ use super::ir::{Demand, Entry, Kind, Number, NumberKind, Place, Size, Table};
 use super::outside;
 use super::scope::Scope;
 use super::source::{begin, text};
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::TokenStream;
 use qrt_scene::syntax::codes;
 use quote::{ToTokens as _, format_ident, quote};
 use std::rc::Rc;
@@ -37,7 +37,7 @@ impl Scope {
         source: TokenStream,
     ) -> Option<Number> {
         let array = &*index.expr;
-        if let Some(word) = self.dependence(array.to_token_stream()) {
+        if let Some(word) = outside::dependence(array.to_token_stream(), &self.constants) {
             let message = format!("a table cannot depend on `{word}`");
             let name = &path.segments.last()?.ident;
             let help = format!(
@@ -53,7 +53,9 @@ impl Scope {
             quote!((#name.len() as ::core::primitive::u32)),
         );
         let entry = if let Some(place) = self.linear(&index.index) {
-            let message = format!("QRT0819: an entry beyond the last of `{shown}`");
+            let message = format!(
+                "an entry beyond the last of `{shown}` [QRT0819]\n  = help: entries count from 0, so that the last has the length less 1"
+            );
             let last = length.minus(&1.into());
             let within = self.holds(&place, &message) && self.holds(&last.minus(&place), &message);
             if !within {
@@ -67,11 +69,15 @@ impl Scope {
         } else {
             let place = self.place(&index.index)?;
             let width = self.index_bits(&place, &index.index)?;
+            let entries = 1_i64 << width;
             let message = format!(
-                "QRT0819: `{shown}` has not the {} entries that an index of {width} bits counts",
-                1_i64 << width
+                "`{shown}` has not the {entries} entries that `{}` counts [QRT0819]\n  = help: give it \
+                 {entries} entries, or choose an index that counts those that it has, such as \
+                 `{}[0..2]` for 4",
+                text(&index.index),
+                place.register,
             );
-            let missing = length.minus(&(1_i64 << width).into());
+            let missing = length.minus(&entries.into());
             self.holds(&missing, &message);
             self.holds(&missing.times(-1), &message);
             Entry::Of(place, width)
@@ -89,18 +95,6 @@ impl Scope {
         };
         let kind = NumberKind::Entry(table, Box::new(entry));
         Some(Number { kind, size, source })
-    }
-
-    /// Returns a name that a constant item in the function cannot use: `Self`, or a constant that the
-    /// function is generic over.
-    fn dependence(&self, tokens: TokenStream) -> Option<Ident> {
-        tokens.into_iter().find_map(|token| match token {
-            TokenTree::Ident(name) => {
-                (name == "Self" || self.constants.contains(&name)).then_some(name)
-            }
-            TokenTree::Group(group) => self.dependence(group.stream()),
-            TokenTree::Punct(_) | TokenTree::Literal(_) => None,
-        })
     }
 
     /// Returns the number of bits of an index.
@@ -155,7 +149,8 @@ impl Scope {
     fn demand_whole(&mut self, path: &Expr, table: &Table) {
         let name = &table.name;
         let message = format!(
-            "QRT0808: `{}` holds a number that is not a whole one from 0 to 2^62",
+            "`{}` holds a number that is not a whole one from 0 to 2^62 [QRT0808]\n  = help: write whole \
+             numbers from 0 on; those below go into another table, whose entries are subtracted",
             text(path)
         );
         let condition = quote!({
@@ -238,6 +233,20 @@ mod tests {
             let help = "write a constant of the module, and read that: `const TABLE: [u32; 4] = [0, 1, 4, 9];`";
             assert_eq!(problem.help, help);
         }
+    }
+
+    #[test]
+    fn lengths_of_tables_are_checked_without_a_call() {
+        let (tokens, _) = read(&quote!(TABLE));
+        let items: Vec<&str> = tokens.split("const _ : () = {").skip(1).collect();
+        // In one of the three functions alone.
+        let [item] = items.as_slice() else {
+            panic!("{tokens}");
+        };
+        assert!(
+            item.contains("assert ! (4 <= (__TABLE_0 . len ()"),
+            "{item}"
+        );
     }
 
     #[test]

@@ -131,7 +131,7 @@ fn help(what: &What) -> Option<String> {
     let help = match what {
         What::Structure(Structure::MissingKeys { keys, .. }) => {
             if keys[..] == ["material"] {
-                "write the material before the braces: `quad: white { ... }`"
+                "write the material before the braces, such as `quad: white { ... }`"
             } else {
                 let examples: Vec<&str> = keys.iter().filter_map(|key| example(key)).collect();
                 let written = !examples.is_empty();

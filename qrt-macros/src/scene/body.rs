@@ -299,11 +299,17 @@ impl Body {
             && let Some(inner) = token.group(Delimiter::Brace)
         {
             if let Some(next) = more.first() {
-                let message = format!("there is no comma before {}", next.found());
+                let found = next.found();
+                let (message, help) = if next.word().is_some() {
+                    let message = format!("there is no comma before {found}");
+                    (message, "write `,` between two entries")
+                } else {
+                    (format!("{found} behind the braces"), "take it away")
+                };
                 self.reader
                     .faults
                     .add(codes::MACRO_COMMA, next.place(), message)
-                    .help("write `,` between two entries");
+                    .help(help);
             }
             return Some((token.place(), inner));
         }

@@ -158,7 +158,7 @@ impl Body {
                 place_of(tokens).unwrap_or_default(),
                 message,
             )
-            .help("write whole numbers, or list the values: `for x in [0, 0.5, 1] { ... }`");
+            .help("write whole numbers, or list the values: `for i in [0, 0.5, 1] { ... }`");
         None
     }
 

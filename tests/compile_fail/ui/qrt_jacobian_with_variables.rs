@@ -6,7 +6,7 @@ qrt! {
         film: 8 x 8,
         material cloth: bsdf {
             map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u)),
-            jacobian: |u, v| pi,
+            jacobian: |u, v| pi / sqrt(1 - u),
             value: 0.5 / pi,
         },
     }
