@@ -15,6 +15,8 @@ use crate::surroundings;
 use arguments::{from_array, handed};
 use proc_macro2::{Delimiter, Group, LineColumn, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
+use std::cell::LazyCell;
+use std::ops::Deref;
 use std::rc::Rc;
 use syn::{ExprPath, Ident, PathArguments};
 
@@ -26,7 +28,13 @@ use syn::{ExprPath, Ident, PathArguments};
 /// once. That takes the function's path, which depends on the code around it: see
 /// [`surroundings::path`].
 pub(super) fn routine(routine: &Routine) -> TokenStream {
-    let is_item = |demand: &&Demand| is_item(demand, &routine.signature);
+    let signature = &routine.signature;
+    // The path takes the text of the file.
+    let is_free = LazyCell::new(|| {
+        let path = surroundings::path(&signature.name);
+        path.is_some_and(|path| signature.name == path.to_string())
+    });
+    let is_item = |demand: &&Demand| is_item(demand, signature, &is_free);
     let (certain, others): (Vec<_>, Vec<_>) = routine.demands.iter().partition(is_item);
     let others = others.into_iter().map(asserted);
     let demands = quote!(#(const { #others };)*);
@@ -125,14 +133,10 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
 
 /// True if a demand can stand in an item of its own, which names no generics around it. Those of an `impl`
 /// are not known where the attribute is the function's: there, any name like a constant's may be one.
-fn is_item(demand: &Demand, signature: &Signature) -> bool {
+fn is_item(demand: &Demand, signature: &Signature, is_free: &impl Deref<Target = bool>) -> bool {
     let condition = &demand.condition;
-    let is_free = || {
-        let path = surroundings::path(&signature.name);
-        path.is_some_and(|path| signature.name == path.to_string())
-    };
     outside::dependence(condition.clone(), &signature.constants).is_none()
-        && (!outside::names_types(condition.clone()) || signature.complete || is_free())
+        && (!outside::names_types(condition.clone()) || signature.complete || **is_free)
 }
 
 /// Returns the assertion of a demand, at the place that needs it.
