@@ -1,5 +1,5 @@
 //! Checks that each name that the prelude exports is used in an example that `cargo test --doc`
-//! runs: beside its export, or in its own documentation.
+//! runs: beside its export, or in its own documentation. Checks that a crate of `.ci` shadows each name.
 
 use std::path::Path;
 
@@ -83,6 +83,26 @@ fn all_that_the_prelude_exports_has_an_example() {
         }
     }
     assert!(lacking.is_empty(), "no example that runs: {lacking:?}");
+}
+
+/// Names of std's prelude of edition 2024, but for derives.
+const OF_STD: &str = "AsMut AsRef AsyncFn AsyncFnMut AsyncFnOnce Box Clone Copy Debug Default \
+    DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce From FromIterator Future Into \
+    IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result Send Sized Some String Sync \
+    ToOwned ToString TryFrom TryInto Unpin Vec align_of align_of_val drop size_of size_of_val";
+
+#[test]
+fn a_crate_of_ci_shadows_all_names_of_the_preludes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = |file: &str| std::fs::read_to_string(root.join(file)).unwrap();
+    let shadowed = text(".ci/newcomer/shadowed/main.rs");
+    let exports = exports(&text("src/prelude.rs"));
+    let own = exports.iter().flat_map(|(names, _)| names);
+    // The crate calls the two macros.
+    let own = own.filter(|name| !matches!(name.as_str(), "qrt" | "reversible"));
+    let all = own.map(String::as_str).chain(OF_STD.split_whitespace());
+    let lacking: Vec<&str> = all.filter(|name| !has_word(&shadowed, name)).collect();
+    assert!(lacking.is_empty(), "not shadowed: {lacking:?}");
 }
 
 #[test]

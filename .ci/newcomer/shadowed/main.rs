@@ -12,6 +12,8 @@
 mod alloc {}
 mod core {}
 mod glam {}
+mod run {}
+mod run_paths {}
 mod std {}
 
 enum Light {
@@ -37,18 +39,21 @@ macro_rules! constants {
 
 types! {
     bool char f32 f64 i8 i16 i32 i64 i128 isize str u8 u16 u32 u64 u128 usize
-    Box Option Result String Vec Bit BlockDeclaration BlockId Bool
-    Caller Channel Computed CompiledOracle Declaration Field Fixed Frame Host
-    Int Item List Machine Map Multiples NamedPlace Number Operand Options Outline
-    PathScene PixelWord Place Program Quantity Recorder Reg RegisterId RenderOptions State
+    Box Option Result String Vec Bit BlockDeclaration BlockId Bool BoundProgram
+    Caller Channel CompiledError Computed CompiledOracle Declaration Encoding Estimator Field Fixed Frame Host
+    Image ImageError Int InvalidScene Item List Loaded Machine Map Marks Metadata Model Multiples NamedPlace
+    Number Operand Options Oracle Outline OwnEstimator
+    PathScene PixelWord Place Predicate Program Progress Quantity Recorder Reg RegisterId RenderError
+    RenderOptions Rendered Report Scene SceneBuilder State
     Style Tag Text Type UFixed UInt ValidScene Vector
-    When Word M H T R
+    When Word Workers M H T R
 }
 
 traits! {
-    AsRef AsMut Clone Copy Debug Default Drop Eq Extend
-    Fn FnMut FnOnce Format From FromIterator Into IntoIterator Iterator
-    Ord PartialEq PartialOrd Send Sized Sync ToOwned ToString TryFrom
+    AmplitudeEstimator AsRef AsMut AsyncFn AsyncFnMut AsyncFnOnce Clone Copy Debug Default DoubleEndedIterator
+    Drop Eq ExactSizeIterator Extend
+    Fn FnMut FnOnce Format From FromIterator Future Into IntoFuture IntoIterator Iterator
+    Ord PartialEq PartialOrd PathState Send Sized Sync ToOwned ToString TryFrom
     TryInto Unpin
 }
 
@@ -69,66 +74,24 @@ trait Everything {
 
 impl<T> Everything for T {}
 
-fn drop() {}
-fn swap() {}
-fn unconditional() {}
+macro_rules! functions {
+    ($($name:ident)*) => { $(fn $name() {})* };
+}
 
-macro_rules! assert {
-    () => {};
+functions! {
+    align_of align_of_val count_where drop load parse render render_compiled render_where save size_of
+    size_of_val swap trace_path unconditional validate write_counts write_counts_to write_to
 }
-macro_rules! assert_eq {
-    () => {};
+
+macro_rules! macros {
+    ($($name:ident)*) => { $(macro_rules! $name { () => {}; })* };
 }
-macro_rules! cfg {
-    () => {};
-}
-macro_rules! column {
-    () => {};
-}
-macro_rules! compile_error {
-    () => {};
-}
-macro_rules! concat {
-    () => {};
-}
-macro_rules! env {
-    () => {};
-}
-macro_rules! format {
-    () => {};
-}
-macro_rules! include_bytes {
-    () => {};
-}
-macro_rules! line {
-    () => {};
-}
-macro_rules! matches {
-    () => {};
-}
-macro_rules! module_path {
-    () => {};
-}
-macro_rules! panic {
-    () => {};
-}
-macro_rules! println {
-    () => {};
-}
-macro_rules! stringify {
-    () => {};
-}
-macro_rules! unreachable {
-    () => {};
-}
-macro_rules! vec {
-    () => {};
-}
-macro_rules! write {
-    () => {};
-}
-macro_rules! writeln {
-    () => {};
+
+macros! {
+    assert assert_eq assert_ne cfg column compile_error concat dbg debug_assert debug_assert_eq
+    debug_assert_ne env eprint eprintln file format format_args include include_bytes include_str
+    line matches module_path option_env panic print println stringify thread_local todo
+    unimplemented unreachable vec write writeln
 }
 
 ::core::include!("../../both_macros.rs");
