@@ -297,7 +297,7 @@ codes! {
     MACRO_LABEL = "QRT0715", "two labels of one name",
         "Rename one of them, or leave it out";
     MACRO_LOOP = "QRT0716", "a loop that is not in its form",
-        "Write `for i in 0..4 { ... }` or `for x in [1, 2, 5] { ... }`";
+        "Write `for i in 0..4 { ... }` or `for i in [1, 2, 5] { ... }`";
     MACRO_LOOP_ENDS = "QRT0717", "a loop that does not run from one whole number to another",
         "Write whole numbers on both sides of `..`";
     MACRO_LOOP_SIZE = "QRT0718", "loops that take too many passes",
