@@ -44,6 +44,7 @@ pub(crate) fn run(_: &Arguments, promises: &mut Promises) {
         let faces = 2 * around * along;
         let sets = vec!["circuit.uncompute=keep".to_owned()];
         let scene = mesh::with_obj(root, KNOT, &knot::torus_knot(around, along), sets);
+        forget_most_bytes();
         let started = Instant::now();
         let (toffoli, search) = inspected(&scene);
         let seconds = started.elapsed().as_secs_f64();
@@ -59,8 +60,10 @@ pub(crate) fn run(_: &Arguments, promises: &mut Promises) {
             promises.judge(&text, a_face <= A_FACE);
             let text = format!("{faces} faces: inspected in {seconds:.0} s");
             promises.judge(&text, seconds <= SECONDS);
-            let text = format!("{faces} faces: inspected in {memory}");
-            promises.judge(&text, bytes.is_none_or(|bytes| bytes <= BYTES));
+            if let Some(bytes) = bytes {
+                let text = format!("{faces} faces: inspected in {memory}");
+                promises.judge(&text, bytes <= BYTES);
+            }
         }
     }
 }
@@ -81,7 +84,13 @@ fn inspected(scene: &ValidScene) -> (u64, u64) {
     (inspection.total().toffoli, most.unwrap_or(0))
 }
 
-/// The most memory that this process has held so far.
+/// Lets [`most_bytes`] count from now on, on Linux.
+fn forget_most_bytes() {
+    // See proc(5). Without it, the figure includes what came before.
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+}
+
+/// The most memory that this process has held.
 fn most_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

@@ -22,7 +22,7 @@ pub(crate) fn seconds() -> f64 {
 /// else the seconds that have passed.
 pub(crate) fn of_children() -> f64 {
     static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
-    // In the unit of /proc, which is a hundredth of a second on every architecture.
+    // In the unit of /proc, a hundredth of a second.
     let ticks = |text: String| {
         let fields = text.rsplit_once(')')?.1.split_ascii_whitespace();
         // Fields 16 and 17 of proc_pid_stat(5): cutime and cstime. Two fields precede the bracket.

@@ -85,7 +85,7 @@ fn all_that_the_prelude_exports_has_an_example() {
     assert!(lacking.is_empty(), "no example that runs: {lacking:?}");
 }
 
-/// Names of std's prelude of edition 2024, but for derives.
+/// Types, traits, variants and functions of std's prelude of edition 2024, and `Debug`.
 const OF_STD: &str = "AsMut AsRef AsyncFn AsyncFnMut AsyncFnOnce Box Clone Copy Debug Default \
     DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce From FromIterator Future Into \
     IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result Send Sized Some String Sync \

@@ -783,7 +783,8 @@ fn helps_are_taken_when_they_are_written() {
         ("qrt", scene_helps::APPLIED, &scene_helps::NOT_APPLIED[..]),
     ];
     // A lint is denied that is reported where types and borrows are right, too: with this error alone, they are. So
-    // nothing need be built. Assertions of the compiler about numbers that are known only then are not reached.
+    // nothing need be built. Assertions about a function's own constants are not reached, which are known in a
+    // build alone.
     let mut all = String::from(
         "#![allow(unused, deprecated)]\n#![deny(non_camel_case_types)]\nstruct the_rest_is_right;\n\n",
     );

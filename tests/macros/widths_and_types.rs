@@ -382,3 +382,46 @@ fn functions_of_types() {
         vec![s[0], (s[1] + (s[0] + 3) * (1 + s[2])) % 8, s[2]]
     });
 }
+
+/// A type that is not generic, whose constants are widths.
+struct Lookup;
+
+#[reversible]
+impl Lookup {
+    const BELOW: u32 = 3;
+    const SQUARES: [u32; 4] = [0, 1, 4, 9];
+
+    /// out += k^2, by a table.
+    fn square<const W: u32>(k: &UInt<{ Self::BELOW + 1 }>, out: &mut UInt<W>) {
+        out += SQUARES[k[{ 0 }..2]];
+    }
+}
+
+const SQUARES: [u32; 4] = Lookup::SQUARES;
+
+/// The bits before a point are the width of a local register, too.
+#[reversible]
+fn parity_of_two<const I: u32>(x: &Fixed<I, 1>, y: &mut Bool) {
+    let mut t: UInt<I> = 0;
+    within! {
+        t ^= 1;
+    }
+    apply! {
+        y ^= t[0] & x[0];
+    }
+}
+
+#[test]
+fn constants_of_plain_types_are_widths() {
+    let states = all(&[4, 5]);
+    let ends = run_all(&Lookup::square_program::<5>(Style::InPlace), &states);
+    for (s, end) in states.iter().zip(ends) {
+        let low = s[0] % 4;
+        assert_eq!(end, [s[0], (s[1] + low * low) % 32]);
+    }
+    let states = all(&[3, 1]);
+    let ends = run_all(&parity_of_two_program::<2>(Style::InPlace), &states);
+    for (s, end) in states.iter().zip(ends) {
+        assert_eq!(end, [s[0], s[1] ^ s[0] & 1]);
+    }
+}

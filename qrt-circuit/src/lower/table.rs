@@ -304,7 +304,7 @@ pub fn best_low(address_bits: u32, columns: &[Arc<[i64]>]) -> u32 {
 /// Least number of entries of a table whose plan is kept.
 const LONG: usize = 1 << 10;
 
-/// The plans of long tables, by their columns, low bits and widths.
+/// The plans of long tables.
 #[derive(Default)]
 pub(super) struct Plans(HashMap<PlanKey, KeptPlan>);
 

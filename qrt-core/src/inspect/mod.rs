@@ -64,7 +64,8 @@ pub struct Inspection {
 }
 
 impl Inspection {
-    /// Inspects one of [`Oracles::names`].
+    /// Inspects one of [`Oracles::names`]. If it is large, the programs that `oracles` holds are dropped, and
+    /// made again if they are asked for.
     ///
     /// # Errors
     /// As [`Oracle::new`].

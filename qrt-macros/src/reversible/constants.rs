@@ -12,6 +12,9 @@ use syn::Ident;
 pub(super) struct Constants {
     names: Vec<Ident>,
     signed: Vec<Ident>,
+    /// True if the item around the function is generic: then no type of Rust's has a width that depends on
+    /// `Self`.
+    has_generic_self: bool,
 }
 
 impl Deref for Constants {
@@ -35,12 +38,18 @@ impl Constants {
         self.signed.push(name.clone());
     }
 
-    /// Returns these constants and others after them.
+    /// Returns these constants, which are those of the item around the function, and its own after them.
     pub(super) fn followed_by(&self, others: &Self) -> Self {
         let mut all = self.clone();
         all.names.extend(others.names.iter().cloned());
         all.signed.extend(others.signed.iter().cloned());
+        all.has_generic_self = !self.names.is_empty();
         all
+    }
+
+    /// True if the item around the function is generic.
+    pub(super) fn has_generic_self(&self) -> bool {
+        self.has_generic_self
     }
 
     /// Returns the constants that are an `i32`.

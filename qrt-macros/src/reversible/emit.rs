@@ -141,7 +141,9 @@ fn is_item(demand: &Demand, signature: &Signature, is_free: &impl Deref<Target =
 
 /// Returns the assertion of a demand, at the place that needs it.
 fn asserted(demand: &Demand) -> TokenStream {
-    let (condition, message) = (&demand.condition, &demand.message);
+    let condition = &demand.condition;
+    // The message is a format string, and may quote braces of the source.
+    let message = demand.message.replace('{', "{{").replace('}', "}}");
     let span = Span::mixed_site().located_at(demand.span);
     quote_spanned!(span=> ::core::assert!(#condition, #message))
 }

@@ -64,6 +64,8 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
         if let GenericParam::Const(constant) = parameter
             && is_named(&constant.ty, "u32")
             && is_before_points(&constant.ident, &signature.inputs)
+            // The body may have registers of this width, which take a `u32`.
+            && !mentions(function.block.to_token_stream(), &constant.ident)
         {
             let name = &constant.ident;
             let message = format!("`{name}` counts the bits before a point, and must be an `i32`");
@@ -181,6 +183,11 @@ pub(super) fn constants(
         );
     }
     constants
+}
+
+/// True if these tokens contain the name.
+fn mentions(tokens: TokenStream, name: &Ident) -> bool {
+    outside::dependence(tokens, std::slice::from_ref(name)).is_some_and(|word| word == *name)
 }
 
 /// True if parameters have a constant in their formats alone, and only as the bits before a point. Rust's
@@ -455,8 +462,8 @@ fn width(expression: &Expr, constants: &Constants, demands: &mut Vec<Demand>) ->
         Expr::Path(path) => match path.path.get_ident() {
             Some(name) if constants.contains(name) => Some(constants.linear(name)),
             // A type of Rust's cannot have it as a width.
-            _ if !constants.is_empty()
-                && outside::dependence(quote!(#path), constants).is_some() =>
+            _ if outside::dependence(quote!(#path), constants)
+                .is_some_and(|word| word != "Self" || constants.has_generic_self()) =>
             {
                 None
             }

@@ -70,12 +70,17 @@ impl Scope {
             let place = self.place(&index.index)?;
             let width = self.index_bits(&place, &index.index)?;
             let entries = 1_i64 << width;
+            let counted = text(&index.index);
+            // An index of fewer bits than the register has.
+            let is_wide = width > 2 && place.part.is_none();
+            let narrower = if is_wide {
+                format!(", or index it by some of the bits: `{counted}[0..2]` counts 4 entries")
+            } else {
+                String::new()
+            };
             let message = format!(
-                "`{shown}` has not the {entries} entries that `{}` counts [QRT0819]\n  = help: give it \
-                 {entries} entries, or choose an index that counts those that it has, such as \
-                 `{}[0..2]` for 4",
-                text(&index.index),
-                place.register,
+                "`{shown}` has not the {entries} entries that `{counted}` counts [QRT0819]\n  = help: \
+                 give it {entries} entries{narrower}"
             );
             let missing = length.minus(&entries.into());
             self.holds(&missing, &message);

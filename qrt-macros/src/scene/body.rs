@@ -304,7 +304,8 @@ impl Body {
                     let message = format!("there is no comma before {found}");
                     (message, "write `,` between two entries")
                 } else {
-                    (format!("{found} behind the braces"), "take it away")
+                    let message = format!("{found} behind the braces");
+                    (message, "take away what stands behind them")
                 };
                 self.reader
                     .faults

@@ -232,7 +232,7 @@ fn split(faces: &mut [Boxed], depth: usize) -> usize {
     let bins = Bins::new(centres, faces.len());
     let cut = (depth < FREE_DEPTH).then(|| bins.best_cut(faces));
     match cut.flatten() {
-        Some(Cut::Plane(axis, bin)) => partition(faces, |face| bins.of(face)[axis] <= bin),
+        Some(Cut::Plane(axis, bin)) => partition(faces, |face| bins.places(face)[axis] <= bin),
         Some(Cut::MainAxis(axis)) => partition(faces, |face| usize::from(face.axis) == axis),
         None => {
             // All centres are in one place, or the tree is too deep: cut into halves.
@@ -265,7 +265,7 @@ impl Bins {
         let count = faces.clamp(4, BINS);
         let extent = centres.high - centres.low;
         let per_unit = DVec3::splat(count as f64) / extent;
-        // The extent of a single place, or one so small that the quotient overflows.
+        // The quotient is infinite if all centres are in one place, or nearly.
         let is_usable = per_unit.cmplt(DVec3::INFINITY);
         Self {
             low: centres.low,
@@ -275,7 +275,7 @@ impl Bins {
     }
 
     /// Returns the bin along each axis.
-    fn of(&self, face: &Boxed) -> [usize; 3] {
+    fn places(&self, face: &Boxed) -> [usize; 3] {
         let places = (face.bounds.centre() - self.low) * self.per_unit;
         places
             .to_array()
@@ -283,12 +283,13 @@ impl Bins {
     }
 
     /// Returns the cut of least cost that has faces on both sides, if there is one.
+    #[inline(never)] // Its bins would stand in each frame of the recursion.
     fn best_cut(&self, faces: &[Boxed]) -> Option<Cut> {
         let mut bins = [[Group::EMPTY; BINS]; 3];
         let mut kinds = [Group::EMPTY; KINDS];
         for face in faces {
-            let group = Group::of(face);
-            for (bins, bin) in bins.iter_mut().zip(self.of(face)) {
+            let group = Group::single(face);
+            for (bins, bin) in bins.iter_mut().zip(self.places(face)) {
                 bins[bin] = bins[bin].with(group);
             }
             let kind = &mut kinds[usize::from(face.axis)];
@@ -348,7 +349,7 @@ impl Group {
         counts: [0; KINDS],
     };
 
-    fn of(face: &Boxed) -> Self {
+    fn single(face: &Boxed) -> Self {
         let mut counts = [0; KINDS];
         counts[usize::from(face.axis)] = 1;
         Self {
