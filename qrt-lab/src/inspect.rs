@@ -42,6 +42,8 @@ impl<'a> InspectFigures<'a> {
         pixel: Option<OraclePixel>,
     ) -> Result<Self, VerifyError> {
         let (scene, oracles) = (prepared.scene(), prepared.oracles());
+        // Its size is known.
+        oracles.release_large();
         let costs = oracles.costs()?;
         let inspection = match pixel {
             Some(pixel) => Inspection::of_pixel(oracles, channel, pixel),

@@ -53,6 +53,12 @@ pub fn toffoli(program: &Program) -> u64 {
 /// A hash map for trusted keys: no protection against chosen collisions.
 pub type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
+/// Number of bits above which an encoder is large.
+const LARGE: usize = 1 << 12;
+
+/// Number of operations whose shapes are held at the same time.
+const AT_ONCE: usize = 1 << 16;
+
 impl KnownFigures {
     /// Returns the figures of an operation, given the widths of its registers.
     pub fn figures(&mut self, op: &Op, width: impl Fn(RegisterId) -> u32) -> OpFigures {
@@ -74,15 +80,25 @@ impl KnownFigures {
         let shape = |op: &&Op| canonical(op, &width);
         let mut new: Vec<Shape> = Vec::new();
         let mut places = Vec::with_capacity(ops.len());
-        for shape in cores.map(ops, 64, shape) {
-            let next = self.found.len() + new.len();
-            let place = *self.places.entry(shape).or_insert_with_key(|shape| {
-                new.push(shape.clone());
-                next
-            });
-            places.push(place);
+        // The shapes of all operations of a large program would take gigabytes.
+        for ops in ops.chunks(AT_ONCE) {
+            for shape in cores.map(ops, 64, shape) {
+                let next = self.found.len() + new.len();
+                let place = *self.places.entry(shape).or_insert_with_key(|shape| {
+                    new.push(shape.clone());
+                    next
+                });
+                places.push(place);
+            }
         }
-        let figures = cores.map(&new, 16, |(op, widths)| counted(op, widths));
+        // The gates of a large encoder take a gigabyte: they are counted one encoder after the other.
+        let is_large = |op: &Op| matches!(op, Op::Encode { bits, .. } if bits.len() > LARGE);
+        let figures = cores.map(&new, 16, |(op, widths)| {
+            (!is_large(op)).then(|| counted(op, widths))
+        });
+        let figures = figures.into_iter().zip(&new);
+        let figures =
+            figures.map(|(found, (op, widths))| found.unwrap_or_else(|| counted(op, widths)));
         self.found.extend(figures);
         places.into_iter().map(|place| self.found[place]).collect()
     }

@@ -371,9 +371,13 @@ impl Lowering {
                     if most != inverted {
                         self.x(t);
                     }
-                    for (group, bit) in hot.iter().enumerate() {
-                        if get(ones, group) != most {
-                            self.cx(*bit, t);
+                    // Most of a large circuit's gates are made here.
+                    for (ones, hot) in ones.iter().zip(hot.chunks(64)) {
+                        let mut left = if most { !ones } else { *ones };
+                        left &= u64::MAX >> (64 - hot.len());
+                        while left != 0 {
+                            self.cx(hot[left.trailing_zeros() as usize], t);
+                            left &= left - 1;
                         }
                     }
                 }

@@ -310,7 +310,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Returns the recording, or the first error.
-    pub(crate) fn finish(self) -> Result<Recorded, BuildError> {
+    pub(crate) fn finish(mut self) -> Result<Recorded, BuildError> {
+        self.registers.shrink_to_fit();
+        self.ops.shrink_to_fit();
         match self.error {
             Some(error) => Err(error),
             None => Ok(Recorded {

@@ -384,6 +384,15 @@ impl<'a> Oracles<'a> {
         }
     }
 
+    /// Drops each of [`Oracles::all_channels`] that takes hundreds of megabytes. It is assembled again if it is
+    /// asked for.
+    pub fn release_large(&self) {
+        for class in &self.of {
+            let mut known = locked(&class.all_channels);
+            *known = known.take().filter(|all| all.program.ops.len() <= LARGE);
+        }
+    }
+
     /// Drops the recordings and [`Oracles::all_channels`], which are made again if they are asked for. The
     /// costs are kept.
     pub(crate) fn release_all(&self) {
