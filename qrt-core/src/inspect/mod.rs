@@ -73,7 +73,8 @@ impl Inspection {
         let oracle = oracles.channel(name.channel, name.class)?;
         if oracle.program.ops.len() > LARGE {
             // The inspection itself takes gigabytes.
-            oracles.release_all();
+            oracles.release();
+            oracles.release_large();
         }
         let whole = oracle.whole(0);
         let size = lower::size(&whole);

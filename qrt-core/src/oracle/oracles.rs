@@ -393,15 +393,6 @@ impl<'a> Oracles<'a> {
         }
     }
 
-    /// Drops the recordings and [`Oracles::all_channels`], which are made again if they are asked for. The
-    /// costs are kept.
-    pub(crate) fn release_all(&self) {
-        self.release();
-        for class in &self.of {
-            *locked(&class.all_channels) = None;
-        }
-    }
-
     fn places(&self) -> &'static [usize] {
         if self.luminance {
             &[0, 1, 2, 3]

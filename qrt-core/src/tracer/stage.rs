@@ -163,14 +163,14 @@ impl<const C: usize> Stage<C> {
             }
             scatters.push(scatter);
         }
-        let has_mirror = surfaces
-            .iter()
-            .any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
+        let reflects = smooth.is_some()
+            || surfaces
+                .iter()
+                .any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles)
             || sky.as_ref().is_some_and(SkyStage::asks_for_directions)
             || !geometry.balls.is_empty()
-            || (smooth.is_some() || has_mirror)
-                && camera::has_long_rays(&written.camera, written.film);
+            || reflects && camera::has_long_rays(&written.camera, written.film);
         let refraction = Refraction::new(&geometry, &surfaces, &surface_of, &starts);
         let direct = class == PixelClass::MayMeetLamp;
         let bound = {

@@ -119,25 +119,31 @@ problems! {
             help "search with `--visibility classical`, or draw the sphere as a mesh";
         SmallCell { fraction: u32, needed: u32 } = SMALL_PART
             "beside the size of the scene these cells have too few of {fraction} fraction bits"
-            help { Some(if *needed <= 30 {
-                format!("set `precision.fraction: {needed}`, or make the cells larger")
-            } else {
-                "make the cells larger".to_owned()
-            }) };
+            help { Some(finer(*needed, "make the cells larger", "make the cells larger")) };
         ThinSmoothFace { fraction: u32, needed: u32 } = SMALL_PART
             "the normals of this mesh change over widths that have too few of {fraction} fraction bits"
-            help { Some(if *needed <= 30 {
-                format!("set `precision.fraction: {needed}`, or `smooth: 0`")
-            } else {
-                "write `smooth: 0`, or remove the thinnest faces of the mesh".to_owned()
-            }) };
+            help { Some(finer(
+                *needed,
+                "`smooth: 0`",
+                "write `smooth: 0`, or remove the thinnest faces of the mesh",
+            )) };
         SmallSphere { fraction: u32, needed: u32 } = SMALL_PART
             "beside the size of the scene this sphere has too few of {fraction} fraction bits"
-            help { Some(if *needed <= 30 {
-                format!("set `precision.fraction: {needed}`, or draw what is large as a quad")
-            } else {
-                "draw what is large, such as a ground, as a quad in place of a sphere".to_owned()
-            }) };
+            help { Some(finer(
+                *needed,
+                "draw what is large as a quad",
+                "draw what is large, such as a ground, as a quad in place of a sphere",
+            )) };
+    }
+}
+
+/// Advice on numbers that need `needed` fraction bits: to set them or to do `other`; to do `only` if
+/// no scene may have them.
+fn finer(needed: u32, other: &str, only: &str) -> String {
+    if needed <= 30 {
+        format!("set `precision.fraction: {needed}`, or {other}")
+    } else {
+        only.to_owned()
     }
 }
 
