@@ -1,13 +1,13 @@
 //! Cost of `qrt!` for a crate that uses it: build time, and bytes of the expansion.
 //!
-//! `cargo bench --bench macros` makes a crate that depends on `qrt` with the feature `png`. It has README's
-//! program, and programs with scenes from files: the Cornell box, rendered by its compiled circuit, the same
-//! within 500 qubits, and a mesh of 1,536 triangles. The bench prints the seconds of the processor of the
-//! first build (all dependencies, nothing optimised), the seconds of builds after one scene was changed and
-//! of the expansion of the box, the bytes of this expansion, and those of README's binary.
+//! `cargo bench --bench macros` makes a crate that depends on `qrt` with the feature `png`. It has the first
+//! program of the book's chapter on Rust, and programs with scenes from files: the Cornell box, rendered by its
+//! compiled circuit, the same within 500 qubits, and a mesh of 1,536 triangles. The bench prints the seconds of
+//! the processor of the first build (all dependencies, nothing optimised), the seconds of builds after one scene
+//! was changed and of the expansion of the box, the bytes of this expansion, and those of the first binary.
 //!
 //! It fails where a promise is broken, on two cores with nothing else to do: the first build takes
-//! less than 100 seconds of the processor; the next one less than 1.5 seconds with README's program, less than
+//! less than 100 seconds of the processor; the next one less than 1.5 seconds with the first program, less than
 //! 3 with the box, less than 5 with the mesh and less than 15 with the box of few qubits; the expansion takes
 //! less than half a second, and has less than 2 MB.
 
@@ -59,7 +59,7 @@ struct Author {
 }
 
 fn authors() -> [Author; 4] {
-    let readme = readme();
+    let first = first_program();
     let of_file = |binary, scene, changed, added, program: &str, seconds| {
         let text = std::fs::read_to_string(format!("{ROOT}/scenes-yaml/{scene}.yaml"));
         Author {
@@ -75,9 +75,9 @@ fn authors() -> [Author; 4] {
     };
     [
         Author {
-            binary: "readme",
-            program: readme.clone(),
-            scene: ("src/bin/readme.rs".to_owned(), readme),
+            binary: "first",
+            program: first.clone(),
+            scene: ("src/bin/first.rs".to_owned(), first),
             changed: ["rgb(", "0.7"],
             seconds: 1.5,
         },
@@ -94,9 +94,9 @@ fn authors() -> [Author; 4] {
     ]
 }
 
-/// Returns README's program.
-fn readme() -> String {
-    let text = std::fs::read_to_string(format!("{ROOT}/README.md")).expect("README");
+/// Returns the first program of the chapter "Scenes and circuits in Rust".
+fn first_program() -> String {
+    let text = std::fs::read_to_string(format!("{ROOT}/book/src/macros.md")).expect("a page");
     let code = text
         .split("```rust\n")
         .nth(1)
@@ -118,7 +118,7 @@ fn main() -> ExitCode {
 fn run(_: &Arguments, promises: &mut Promises) {
     let user = User::new();
     let before = processor::of_children();
-    let passed = user.seconds(&["build", "--bin", "readme"]);
+    let passed = user.seconds(&["build", "--bin", "first"]);
     let first = processor::of_children() - before;
     println!("first build: {passed:.2} s have passed");
     let mut judge = |what: &str, figure: f64, bar: f64, unit: &str| {
@@ -126,8 +126,8 @@ fn run(_: &Arguments, promises: &mut Promises) {
         promises.judge(&what, figure < bar);
     };
     judge("first build", first, 100.0, "s of the processor");
-    let binary = std::fs::metadata(user.folder.join("target/debug/readme")).expect("a binary");
-    println!("README's binary: {:.1} MB", binary.len() as f64 / 1e6);
+    let binary = std::fs::metadata(user.folder.join("target/debug/first")).expect("a binary");
+    println!("first binary: {:.1} MB", binary.len() as f64 / 1e6);
     for author in &user.authors {
         let build = ["build", "--bin", author.binary];
         user.seconds(&build);

@@ -11,16 +11,13 @@
 //!   circuit, at most 82,470 Toffolis and 46,000 qubits a channel, for each of its four million
 //!   paths.
 //! * **It works, gate by gate.** qrt implements "A Framework for Quantum Ray Tracing" by Lu & Lin
-//!   ([arXiv:2203.15451](https://arxiv.org/abs/2203.15451)), which the same authors followed up
-//!   with a simulation
-//!   ([doi:10.1142/S2010324722500308](https://doi.org/10.1142/S2010324722500308)). The framework
-//!   works, once [eleven errata](https://github.com/qrt-rs/qrt/blob/main/book/src/errata.md) are
-//!   mended.
+//!   ([arXiv:2203.15451](https://arxiv.org/abs/2203.15451)). The framework works once [eleven
+//!   errata](https://github.com/qrt-rs/qrt/blob/main/book/src/errata.md) are corrected.
 //! * **It has a price, and qrt reports it.** A 64 x 64 picture of the Cornell box without sampled
 //!   lamps, with an error of 1 %, would take 217 million physical qubits for 6.1 years.
 //!
-//! In a clone of the [repository](https://github.com/qrt-rs/qrt) one command renders a picture,
-//! `lit-box.png`, and one tests all of it:
+//! In a clone of the [repository](https://github.com/qrt-rs/qrt), the first command renders a
+//! picture, `lit-box.png`, and the second runs the tests:
 //!
 //! ```sh
 //! cargo run --release -- render scenes-yaml/lit-box.yaml --exposure 1
@@ -29,10 +26,9 @@
 //!
 //! # The library
 //!
-//! A scene is written in YAML, or in Rust by the macro [`qrt!`]. qrt traces each of its pixels
-//! along `2^path_bits` paths, the ones that the circuit can trace in superposition, and estimates
-//! their mean colour as quantum counting would. The command `qrt render` does all of that; this
-//! library is what it is made of:
+//! A scene is written in YAML, or in Rust by the macro [`qrt!`]. For each pixel qrt traces the
+//! `2^path_bits` paths that the circuit traces in superposition, and estimates their mean colour as
+//! quantum counting would. The command `qrt render` is a front end of this library:
 //!
 //! ```
 //! use qrt::prelude::*;
@@ -49,7 +45,7 @@
 //!   - quad: { vertices: [[-900, 5, -900], [900, 5, -900], [900, 5, 900], [-900, 5, 900]], material: sky }
 //! sampling: { path_bits: 8, depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
 //! ";
-//! // Everything that is wrong with a scene is said at once, with places.
+//! // All errors of a scene are reported at once, with their places.
 //! let scene = parse(text, "lit-floor.yaml", &[], "".as_ref())?.valid;
 //!
 //! // All paths of every pixel: under so wide a sky, a floor shows its albedo.
@@ -70,9 +66,9 @@
 //!
 //! The feature `cli`, which is the default, contains all others: `png` and `exr` write pictures of
 //! these kinds, `gltf` reads meshes of glTF files, `parts` renders a picture in parts and merges
-//! them, `serde` reads and writes scenes and their parts, and `lab` has what studies a scene: checks
-//! of its circuit, measurements of its error, physical resources, drawings, and exports to Mitsuba 3.
-//! A crate that sets `default-features = false` builds none of their dependencies.
+//! them, `serde` reads and writes scenes and their parts, and `lab` studies a scene: it checks its
+//! circuit, measures its error, estimates physical resources, draws, and exports to Mitsuba 3. With
+//! `default-features = false` a crate builds none of the dependencies of these features.
 //!
 //! [`scene`] reads and checks scenes, and [`core`] takes a checked scene to its oracle: the tracer and
 //! the compiler. [`machines`] run circuits, [`counting`] estimates amplitudes, and [`runtime`] renders
@@ -91,11 +87,6 @@
 //!   [`examples/one_pixel.rs`](https://github.com/qrt-rs/qrt/blob/main/examples/one_pixel.rs).
 
 #![forbid(unsafe_code)]
-
-/// Tests the README's examples.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
 
 /// Points and directions: the vectors that scenes are written with, in the version that qrt uses.
 ///
