@@ -37,7 +37,7 @@ qrt! {
         quad floor: velvet { (-3, 0, 3), (3, 0, 3), (3, 0, 1), (-3, 0, 1) },
         quad light: lamp { (-2, 3, -1.5), (2, 3, -1.5), (2, 3, 0.5), (-2, 3, 0.5) },
 
-        sampling { path_bits: 8 },
+        sampling { path_bits: 8, lights: none },
         depth primary { bits: (8, 8) },
         depth secondary { bits: (8, 8) },
         comparator { bits: 8 },

@@ -26,7 +26,7 @@ qrt! {
         quad glass: silver { (-0.8, 0.2, -1), (1.8, 0.2, -1), (1.8, 1.8, -1), (-0.8, 1.8, -1) },
         quad light: lamp { (0, 2, 0), (1, 2, 0), (1, 2, 1), (0, 2, 1) },
 
-        sampling { path_bits: 8 },
+        sampling { path_bits: 8, lights: none },
         depth primary { bits: (8, 8) },
         depth secondary { bits: (8, 8) },
         depth tertiary { bits: (8, 8) },

@@ -36,7 +36,7 @@ qrt! {
         quad wall: stone { (-WIDTH, 0, -1), (WIDTH, 0, -1), (WIDTH, 5, -1), (-WIDTH, 5, -1) },
         quad light: lamp { (-1, 4, 0), (1, 4, 0), (1, 4, 2), (-1, 4, 2) },
 
-        sampling { path_bits: 10 },
+        sampling { path_bits: 10, lights: none },
         depth primary { bits: (8, 8) },
         depth secondary { bits: (8, 8), map: cosine_hemisphere },
         depth tertiary { bits: (8, 8), map: cosine_hemisphere },

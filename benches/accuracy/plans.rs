@@ -274,7 +274,10 @@ fn lamps_pay() -> bool {
     const ERROR: f64 = 0.01;
     let mut fine = true;
     let mut spent = Vec::new();
-    for (about, sets) in [("not sampled", &[][..]), ("sampled", &[LIT])] {
+    for (about, sets) in [
+        ("not sampled", &[][..]),
+        ("sampled", &[LIT, "sampling.lights=auto"]),
+    ] {
         let asked = scene("cornell-box", sets, ERROR);
         let wide = wide(&asked);
         let truth = truth(&wide);

@@ -400,7 +400,7 @@ fn lit(root: &Path) -> f64 {
         let (_, cost) = worst(&load(root, "cornell-box", sets), Passes::ALL);
         cost.toffoli
     };
-    let [with, without] = [toffoli(&[&depths]), toffoli(&[])];
+    let [with, without] = [toffoli(&[&depths, "sampling.lights=auto"]), toffoli(&[])];
     println!("\nthe box with sampled lamps: {with} Toffolis, without: {without}");
     with as f64 / without as f64
 }

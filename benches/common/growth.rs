@@ -51,7 +51,7 @@ pub(crate) fn quads(quads: u32) -> String {
     let depths = ["{ bits: [8, 8] }"; 3].join(", ");
     let _ = writeln!(
         text,
-        "sampling: {{ path_bits: 14, depths: [{depths}] }}\ncomparator: {{ bits: 12 }}"
+        "sampling: {{ path_bits: 14, depths: [{depths}], lights: none }}\ncomparator: {{ bits: 12 }}"
     );
     text
 }

@@ -94,6 +94,7 @@ fn scene(name: &str) -> impl Fn(u32) -> ValidScene {
     move |path_bits| {
         let sets = [
             format!("sampling.depths={DEPTHS}"),
+            "sampling.lights=auto".to_owned(),
             format!("sampling.path_bits={path_bits}"),
         ];
         let loaded = front::load(&path, &sets).unwrap_or_else(|report| panic!("{report}"));

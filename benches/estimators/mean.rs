@@ -28,8 +28,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Scenes, and the settings with which they are measured.
 const SCENES: [(&str, &str, &[&str]); 6] = [
     ("box lit", "lit-box", &[]),
-    ("glass lit", "cornell-glass", &["sampling.depths=4"]),
-    ("knot lit", "knot", &["sampling.depths=3"]),
+    (
+        "glass lit",
+        "cornell-glass",
+        &["sampling.depths=4", "sampling.lights=auto"],
+    ),
+    (
+        "knot lit",
+        "knot",
+        &["sampling.depths=3", "sampling.lights=auto"],
+    ),
     ("sky", "weekend", &[]),
     ("sky with glass", "weekend", &["sampling.depths=6"]),
     ("box without light sampling", "cornell-box", &[]),

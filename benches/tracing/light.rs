@@ -92,11 +92,11 @@ type Picture = Vec<[f64; 3]>;
 
 /// Returns the Cornell box with 2^bits paths a pixel.
 fn scene(lit: bool, bits: u32) -> ValidScene {
-    let light = if lit { ", light: [8, 8]" } else { "" };
-    let depth = format!("{{ bits: [10, 10]{light} }}");
+    let depth = "{ bits: [10, 10] }";
     let sets = [
         format!("sampling.depths=[{{ bits: [10, 10] }}, {depth}, {depth}]"),
         format!("sampling.path_bits={bits}"),
+        format!("sampling.lights={}", if lit { "auto" } else { "none" }),
     ];
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/cornell-box.yaml");
     let scene = load(&file, &sets)

@@ -237,8 +237,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "], geometry: QUADS.iter().map(|(vertices, material)| Geometry::Quad(\
-         qrt_scene::Quad {{ vertices: vertices.map(Into::into), material: \
-         (*material).to_owned() }})).collect(),"
+         qrt_scene::Quad::new(vertices.map(Into::into), *material))).collect(),"
     )?;
     writeln!(
         out,
@@ -248,7 +247,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
     for depth in &sampling.depths {
         writeln!(
             out,
-            "DepthSampling {{ bits: {:?}, map: Map::{:?}, light: {:?}, lens: None }},",
+            "DepthSampling {{ bits: {:?}, map: Map::{:?}, light: LightPoint::{:?}, lens: None }},",
             depth.bits, depth.map, depth.light
         )?;
     }

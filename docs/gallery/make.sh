@@ -12,13 +12,13 @@ lit='{ bits: [8, 8], light: [8, 8] }'
 for scene in scenes-yaml/*.yaml; do
   name=$(basename "$scene" .yaml)
   exposure=1 paths=10
-  sets=(--set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit]")
+  sets=(--set sampling.lights=auto --set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit]")
   case $name in
     furnace) exposure=0 paths=6 sets=() ;; # nothing but lamps; all of its paths are equal
     floor-and-light) exposure=0 ;;
     lit-box) sets=() ;; # as its file says
     weekend) exposure=0 sets=() ;; # no lamps to sample
-    cornell-glass) paths=11 sets=(--set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit, $lit, $lit]") ;;
+    cornell-glass) paths=11 sets=(--set sampling.lights=auto --set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit, $lit, $lit]") ;;
   esac
   echo "$name"
   "$qrt" render "$scene" -o "docs/gallery/$name.png" --exposure "$exposure" "${sets[@]}" \
@@ -33,7 +33,7 @@ echo lit-box-gates
 # A mesh of 1,536 triangles by gates alone: ten minutes of processor time. ImageMagick makes 4 x 4 of each pixel.
 echo knot-gates
 "$qrt" render scenes-yaml/knot.yaml -o docs/gallery/knot-gates.png --model gates --estimator exact --exposure 1 \
-  --set circuit.uncompute=keep --set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit]" \
+  --set circuit.uncompute=keep --set sampling.lights=auto --set "sampling.depths=[{ bits: [8, 8] }, $lit, $lit]" \
   --set sampling.path_bits=8 --quiet
 magick docs/gallery/knot-gates.png -scale 256x256 docs/gallery/knot-gates.png
 

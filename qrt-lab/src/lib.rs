@@ -23,7 +23,7 @@
 //! geometry:
 //!   - quad: { vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor }
 //!   - quad: { vertices: [[-9, 5, -9], [9, 5, -9], [9, 5, 9], [-9, 5, 9]], material: sky }
-//! sampling: { path_bits: 4, depths: [{ bits: [6, 6] }, { bits: [6, 6] }] }
+//! sampling: { path_bits: 4, depths: [{ bits: [6, 6] }, { bits: [6, 6] }], lights: none }
 //! comparator: { bits: 6 }
 //! counting: { phase_bits: 5 }
 //! ";

@@ -269,7 +269,7 @@ fn any_scene() -> impl Strategy<Value = String> {
                  vfov: {vfov:?} }} }}\n\
                  film: {{ width: 4, height: 4 }}\n\
                  materials:\n{materials}geometry:\n{geometry}\
-                 sampling: {{ path_bits: 4, depths: [{depths}] }}\n\
+                 sampling: {{ path_bits: 4, depths: [{depths}], lights: none }}\n\
                  precision: {{ fraction: {fraction} }}\n\
                  comparator: {{ bits: 4 }}\n\
                  circuit: {{ uncompute: {uncompute}, nearest: {nearest} }}\n"

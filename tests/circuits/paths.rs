@@ -24,6 +24,7 @@ geometry:
   - quad: { vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }
 sampling:
   path_bits: 5
+  lights: none
   depths: [{ bits: [4, 4] }, { bits: [4, 4] }]
 precision: { fraction: 8 }
 comparator: { bits: 4 }

@@ -27,6 +27,7 @@ geometry:
   - quad: { vertices: [[-3, -3, 3], [-3, 2, 3], [3, 2, 3], [3, -3, 3]], material: lamp }
 sampling:
   path_bits: 4
+  lights: none
   depths: [{ bits: [3, 3] }, { bits: [3, 3] }]
 precision: { fraction: 6 }
 comparator: { bits: 2 }

@@ -25,7 +25,7 @@ materials:
 geometry:
   - quad: {{ vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: cloth }}
   - quad: {{ vertices: [[-1, -1, 2], [-1, 1, 2], [1, 1, 2], [1, -1, 2]], material: lamp }}
-sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}] }}
+sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}], lights: none }}
 precision: {{ fraction: 10 }}
 comparator: {{ bits: 10 }}
 "#

@@ -99,7 +99,10 @@ materials:
         );
     }
     let rays = rays.join(", ");
-    let _ = writeln!(text, "sampling: {{ path_bits: 2, depths: [{rays}] }}");
+    let _ = writeln!(
+        text,
+        "sampling: {{ path_bits: 2, depths: [{rays}], lights: none }}"
+    );
     text
 }
 

@@ -17,7 +17,7 @@ materials:
 geometry:
   - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: grey }
   - mesh: { obj: any.obj, material: lamp }
-sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }] }
+sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }], lights: none }
 ";
 
 /// Numbers and words that replace others.

@@ -23,7 +23,7 @@ materials:
 geometry:
   - quad: { vertices: [[-2, -1, 1], [0, -1, 1], [0, 0, 1], [-2, 0, 1]], material: a/b }
   - quad: { vertices: [[0, -1, 0], [0, 0, 0], [2, 0, 2], [2, -1, 2]], material: glass }
-sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }], lights: none }
 ";
 
 type Channels = BTreeMap<String, Vec<f32>>;

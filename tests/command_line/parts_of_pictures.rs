@@ -9,7 +9,8 @@ const BOX: &str = include_str!("../scenes/box.yaml");
 
 /// Returns a box whose lamp is sampled: pixels that see it have another scale than the others.
 fn aiming() -> String {
-    BOX.replace("{ bits: [8, 8] }]", "{ bits: [8, 8], light: [4, 4] }]")
+    let text = BOX.replace("  lights: none\n", "");
+    text.replace("{ bits: [8, 8] }]", "{ bits: [8, 8], light: [4, 4] }]")
 }
 
 /// Returns the box without the parameters that an accuracy replaces.

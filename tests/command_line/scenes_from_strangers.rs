@@ -16,7 +16,7 @@ camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 }} }}
 film: {{ width: 1, height: 1 }}
 materials: {{ lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}, {materials} }}
 geometry: [{geometry}]
-sampling: {{ path_bits: 4, depths: [{{ bits: [2, 2] }}, {{ bits: [2, 2] }}] }}
+sampling: {{ path_bits: 4, depths: [{{ bits: [2, 2] }}, {{ bits: [2, 2] }}], lights: none }}
 "
     )
 }
@@ -227,7 +227,7 @@ geometry:
   - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: m }
   - quad: { vertices: [[-1, 1, 1e6], [1, 1, 1e6], [1, -1, 1e6], [-1, -1, 1e6]], material: lamp }
 precision: { fraction: 30 }
-sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }] }
+sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }], lights: none }
 ";
     let folder = Folder::with("far.yaml", text);
     let errors = folder.fails(2, &["inspect", "far.yaml"]);

@@ -28,7 +28,7 @@ qrt! {
         }
         quad lamp: "warm lamp" { (-1, 3, -1), (1, 3, -1), (1, 3, 1), (-1, 3, 1) },
         mesh knot: cloth { obj: "scenes-yaml/meshes/knot.obj", smooth: 40, translate: (0, 0.5, 0) },
-        sampling { path_bits: 6 },
+        sampling { path_bits: 6, lights: none },
         depth primary { bits: (6, 6) },
         depth secondary { bits: (6, 6), map: cosine_hemisphere },
         comparator { bits: 8 },
@@ -54,7 +54,7 @@ geometry:
   - quad: { vertices: [[0, 0, 2], [2, 0, 2], [2, 0, -2], [0, 0, -2]], material: grey }
   - quad: { vertices: [[-1, 3, -1], [1, 3, -1], [1, 3, 1], [-1, 3, 1]], material: warm lamp }
   - mesh: { obj: scenes-yaml/meshes/knot.obj, material: cloth, smooth: 40, translate: [0, 0.5, 0] }
-sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6], map: cosine-hemisphere }] }
+sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6], map: cosine-hemisphere }], lights: none }
 precision: { fraction: 14 }
 comparator: { bits: 8 }
 budget: { qubits: 100000000 }

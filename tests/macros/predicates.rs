@@ -24,7 +24,7 @@ qrt! {
         quad wall: red { (-1, 0, 2), (-1, 0, -1), (-1, 2, -1), (-1, 2, 2) },
         quad glass: silver { (-0.8, 0.2, -1), (1.8, 0.2, -1), (1.8, 1.8, -1), (-0.8, 1.8, -1) },
         quad light: lamp { (0, 2, 0), (1, 2, 0), (1, 2, 1), (0, 2, 1) },
-        sampling { path_bits: 5 },
+        sampling { path_bits: 5, lights: none },
         depth primary { bits: (4, 4) },
         depth secondary { bits: (4, 4) },
         depth tertiary { bits: (4, 4) },
@@ -57,7 +57,7 @@ qrt! {
             },
         }
         quad light: lamp { (X, 2000, 0), (X + 1000, 2000, 0), (X + 1000, 2000, 1000), (X, 2000, 1000) },
-        sampling { path_bits: 4 },
+        sampling { path_bits: 4, lights: none },
         depth primary { bits: (4, 4) },
         depth secondary { bits: (4, 4) },
         comparator { bits: 4 },

@@ -32,7 +32,7 @@ materials:
 geometry:
   - quad: {{ vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: floor }}
   - quad: {{ vertices: [[-1, 1.5, -1], [1, 1.5, -1], [1, 1.5, 1], [-1, 1.5, 1]], material: lamp }}
-sampling: {{ {more} depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8] }}] }}
+sampling: {{ {more} depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8] }}], lights: none }}
 accuracy: {accuracy}
 "
     );

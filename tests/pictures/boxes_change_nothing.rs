@@ -48,7 +48,7 @@ const HEAD: &str = "
 name: faces
 camera: { perspective: { eye: [0.3, 1.1, -2.4], target: [0, 0.4, 0], vfov: 45 } }
 film: { width: 6, height: 6 }
-sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }] }
+sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }, { bits: [6, 6] }], lights: none }
 materials:
   grey: { lambertian: { albedo: [0.6, 0.5, 0.4] } }
   glass: { dielectric: { ior: 1.4 } }
@@ -133,7 +133,7 @@ fn over_spheres() {
     assert_same(&written(&text, &[]));
     let depth = "{ bits: [6, 6], light: [6, 6] }";
     let lit = format!("sampling.depths=[{{ bits: [6, 6] }}, {depth}, {depth}]");
-    assert_same(&written(&text, &[&lit]));
+    assert_same(&written(&text, &[&lit, "sampling.lights=auto"]));
     assert_same(&written(&text, &["sky={ horizon: 1, zenith: 2 }"]));
 }
 

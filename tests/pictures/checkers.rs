@@ -29,7 +29,7 @@ materials:
   plain: {{ lambertian: {{ albedo: 1 }} }}
 geometry:
 {geometry}
-sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}] }}"
+sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}], lights: none }}"
     );
     let options = RenderOptions {
         model: Some(model),
@@ -213,7 +213,7 @@ geometry:
   - quad: {{ vertices: [[-3, 0, 1], [-1, 0, 1], [-1, 0, -1], [-3, 0, -1]], material: fine }}
   - quad: {{ vertices: [[-1, 0.1, 1], [1, 0.1, 1], [1, 0.1, -1], [-1, 0.1, -1]], material: plain }}
   - quad: {{ vertices: [[1, 0, 1], [3, 0, 1], [3, 0, -1], [1, 0, -1]], material: wide }}
-sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}] }}",
+sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}], lights: none }}",
         text(1.0),
         text(3.0)
     );
@@ -301,7 +301,7 @@ materials:
 geometry:
   - quad: {{ vertices: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: fine }}
 precision: {{ fraction: 12 }}
-sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}] }}"
+sampling: {{ path_bits: 4, depths: [{{ bits: [1, 1] }}, {{ bits: [2, 2] }}], lights: none }}"
         );
         written(&text, &[])
     };

@@ -40,7 +40,7 @@ fn lamp_in_a_box(ior: f64, inwards: bool, camera: &str) -> String {
         "name: box\ncamera: {camera}\nfilm: {{ width: 2, height: 2 }}\nmaterials:\n  lamp: {{ emitter: {{ \
          radiance: [1, 1, 1] }} }}\n  glass: {{ dielectric: {{ ior: {ior} }} }}\ngeometry:\n{}  - quad: {{ \
          vertices: [[-0.5, -0.5, 0], [0.5, -0.5, 0], [0.5, 0.5, 0], [-0.5, 0.5, 0]], material: lamp \
-         }}\nsampling: {{ path_bits: 6, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6] }}] }}\n",
+         }}\nsampling: {{ path_bits: 6, depths: [{{ bits: [6, 6] }}, {{ bits: [6, 6] }}], lights: none }}\n",
         cuboid([-1.0; 3], [1.0; 3], inwards, "glass")
     )
 }
@@ -115,7 +115,7 @@ fn beside_glass_that_is_covered_the_bound_holds() {
              dielectric: {{ ior: {ior} }} }}\n  veil: {{ bsdf: {{ map: [\"2*sqrt(u-u^2)*cos(2*pi*v)\", \
              \"2*sqrt(u-u^2)*sin(2*pi*v)\", \"1-2*u\"], value: \"0.1\" }} }}\ngeometry:\n  - quad: {{ vertices: \
              [[-2, -2, 1], [2, -2, 1], [2, 2, 1], [-2, 2, 1]], material: veil }}\n{}{}sampling: {{ path_bits: 10, \
-             depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}, {{ bits: [4, 4] }}] }}\n",
+             depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}, {{ bits: [4, 4] }}], lights: none }}\n",
             cuboid([-1.0; 3], [1.0; 3], inwards, "glass"),
             cuboid([-8.0; 3], [8.0; 3], true, "lamp"),
         );
@@ -151,7 +151,7 @@ fn furnace(numbers: &mut Numbers) -> String {
          }} }}\nfilm: {{ width: 4, height: 4 }}\nmaterials:\n  light: {{ emitter: {{ radiance: [1, 1, 1] }} }}\n  \
          glass: {{ dielectric: {{ ior: 1.5 }} }}\n  water: {{ dielectric: {{ ior: 1.33 }} }}\n  air: {{ \
          dielectric: {{ ior: 0.8 }} }}\ngeometry:\n{geometry}sampling: {{ path_bits: 8, depths: [{{ bits: [8, 8] \
-         }}{}] }}\n",
+         }}{}], lights: none }}\n",
         ", { bits: [8, 8] }".repeat(11)
     )
 }

@@ -258,7 +258,8 @@ fn the_box_needs_few_paths() {
         let depth = "{ bits: [10, 10], light: [8, 8] }";
         let depths = format!("sampling.depths=[{{ bits: [10, 10] }}, {depth}, {depth}]");
         let bits = format!("sampling.path_bits={bits}");
-        let scene = from_file("scenes-yaml/cornell-box.yaml", &[&depths, &bits]);
+        let sets = ["sampling.lights=auto", &*depths, &*bits];
+        let scene = from_file("scenes-yaml/cornell-box.yaml", &sets);
         let classes = PixelClasses::new(&scene);
         let spread = (0..64 * 64).step_by(29).map(|k| [k % 64, k / 64]);
         // Also leave out the lamp's rim, whose light is not sampled.
@@ -294,7 +295,7 @@ fn scales_are_proven_by_class_of_pixel() {
     let depths = format!("sampling.depths=[{{ bits: [8, 8] }}, {depth}, {depth}]");
     let scene = from_file(
         "scenes-yaml/cornell-box.yaml",
-        &[&depths, "sampling.path_bits=8"],
+        &[&depths, "sampling.path_bits=8", "sampling.lights=auto"],
     );
     let of = |class| Real::of_class(&scene, 0, class).unwrap();
     let all = of(PixelClass::MayMeetLamp).stage().bound();

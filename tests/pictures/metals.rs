@@ -15,7 +15,7 @@ sky: {{ radiance: 1 }}
 materials: {{ m: {material} }}
 geometry:
   - quad: {{ vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: m }}
-sampling: {{ path_bits: 14, depths: [{{ bits: [0, 0] }}, {{ bits: [12, 12] }}] }}",
+sampling: {{ path_bits: 14, depths: [{{ bits: [0, 0] }}, {{ bits: [12, 12] }}], lights: none }}",
         4.0 * sin,
         4.0 * cos
     );

@@ -23,7 +23,7 @@ geometry:
   - quad: { vertices: [[-4, -1, -4], [-4, -1, 4], [4, -1, 4], [4, -1, -4]], material: floor }
   - quad: { vertices: [[-3, 3, -3], [-1, 3, -3], [-1, 3, 3], [-3, 3, 3]], material: warm }
   - quad: { vertices: [[1, 3, -3], [3, 3, -3], [3, 3, 3], [1, 3, 3]], material: cold }
-sampling: { path_bits: 8, depths: [{ bits: [4, 4] }, { bits: [6, 6] }] }
+sampling: { path_bits: 8, depths: [{ bits: [4, 4] }, { bits: [6, 6] }], lights: none }
 comparator: { bits: 8 }
 counting: { phase_bits: 9 }
 ";
@@ -54,7 +54,7 @@ fn colours_are_right_on_average() {
     let lit = format!("sampling.depths={LIT}");
     for (model, seeds, sets) in [
         (Model::Real, 400_u32, &[][..]),
-        (Model::Real, 400, &[&*lit]),
+        (Model::Real, 400, &[&*lit, "sampling.lights=auto"]),
         (Model::Fixed, 60, &[]),
     ] {
         let scene = written(LAMPS, sets);

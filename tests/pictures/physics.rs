@@ -76,7 +76,7 @@ impl Room {
         traced(&format!(
             "name: room\ncamera: {camera}\nfilm: {{ width: {}, height: {} }}\n\
              materials: {materials}\ngeometry:\n{geometry}\
-             sampling: {{ path_bits: 8, depths: [{{ bits: [0, 0] }}{bits}] }}\n",
+             sampling: {{ path_bits: 8, depths: [{{ bits: [0, 0] }}{bits}], lights: none }}\n",
             film[0], film[1]
         ))
     }
@@ -240,7 +240,7 @@ fn a_lamp_a_ten_thousandth_of_the_scene_lights_and_shows_as_any_other() {
 geometry:
   - quad: {{ vertices: [[-4, 0, -4], [-4, 0, 4], [4, 0, 4], [4, 0, -4]], material: floor }}
   - quad: {{ vertices: {lamp:?}, material: lamp }}
-sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}] }}\n"
+sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}], lights: none }}\n"
             ),
             eye,
             target,
@@ -326,7 +326,7 @@ camera: {{ perspective: {{ eye: {eye:?}, target: {target:?}, vfov: 90 }} }}
 film: {{ width: 5, height: 5 }}
 materials: {{ block: {material}, glow: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
 geometry:
-{block}{room}sampling: {{ path_bits: 8, depths: [{{ bits: [0, 0] }}{depth}] }}"
+{block}{room}sampling: {{ path_bits: 8, depths: [{{ bits: [0, 0] }}{depth}], lights: none }}"
                 ));
                 for value in picture.as_flattened() {
                     assert!(
@@ -352,7 +352,8 @@ fn random_paths_have_the_mean_of_dense_ones_whatever_their_density() {
     let pixels: Vec<[u32; 2]> = (0..20).map(|i| [i % 5, i / 5]).collect();
     let machine = |map: &str, path_bits: u32| {
         let depths = format!("[{{ bits: [16, 16] }}, {{ bits: [16, 16], map: {map} }}]");
-        let sampling = format!("sampling={{ path_bits: {path_bits}, depths: {depths} }}");
+        let sampling =
+            format!("sampling={{ path_bits: {path_bits}, depths: {depths}, lights: none }}");
         let sets = ["film={ width: 5, height: 4 }", &sampling];
         let scene = from_file("scenes-yaml/floor-and-light.yaml", &sets);
         Real::new(&scene, 3).unwrap_or_else(|error| panic!("{error}"))

@@ -311,16 +311,26 @@ fn an_interrupted_tile_goes_on_within_itself() {
     let lit = "{ bits: [6, 6], light: [6, 6] }";
     let lit = format!("sampling.depths=[{{ bits: [8, 8] }}, {lit}, {lit}]");
     for (model, path_bits, estimator, lights) in [
-        (Model::Real, 13, Estimator::Sine, "sampling.lights=none"),
-        (Model::Real, 13, Estimator::Sine, &lit),
-        (Model::Fixed, 9, Estimator::Exact, "sampling.lights=none"),
-        (Model::Fixed, 9, Estimator::Exact, &lit),
-        (Model::Gates, 9, Estimator::Sine, "sampling.lights=none"),
-        (Model::Gates, 12, Estimator::Exact, "sampling.lights=none"),
+        (Model::Real, 13, Estimator::Sine, &[][..]),
+        (
+            Model::Real,
+            13,
+            Estimator::Sine,
+            &[&*lit, "sampling.lights=auto"],
+        ),
+        (Model::Fixed, 9, Estimator::Exact, &[]),
+        (
+            Model::Fixed,
+            9,
+            Estimator::Exact,
+            &[&*lit, "sampling.lights=auto"],
+        ),
+        (Model::Gates, 9, Estimator::Sine, &[]),
+        (Model::Gates, 12, Estimator::Exact, &[]),
     ] {
         let bits_of_paths = format!("sampling.path_bits={path_bits}");
         let film = "film={ width: 8, height: 8 }";
-        let scene = scene(&[&bits_of_paths, film, lights]);
+        let scene = scene(&[&[&*bits_of_paths, film], lights].concat());
         let options = RenderOptions {
             model: Some(model),
             ..with(estimator)

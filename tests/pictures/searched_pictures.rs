@@ -63,7 +63,11 @@ fn a_search_that_does_not_fail_finds_the_tracers_picture() {
 fn a_search_that_does_not_fail_finds_what_asking_about_all_finds() {
     // In general, a table rounds differently from a constant, so the oracle itself is the reference.
     let lit = "sampling.depths=[{ bits: [8, 8] }, { bits: [6, 6], light: [6, 6] }]";
-    for sets in [&[][..], &["sampling.depths=[{ bits: [8, 8] }]"], &[lit]] {
+    for sets in [
+        &[][..],
+        &["sampling.depths=[{ bits: [8, 8] }]"],
+        &[lit, "sampling.lights=auto"],
+    ] {
         let room = from_file(
             "tests/scenes/box.yaml",
             &[sets, &["sampling.path_bits=6"]].concat(),

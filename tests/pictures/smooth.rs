@@ -271,7 +271,7 @@ fn wide_views_are_shaded_as_narrow_ones() {
             "eye: [0, 0, 0.3], target: [0, 0, 5], vfov: 150",
             &format!("ball: {{ {material} }}, lamp: {{ emitter: {{ radiance: 3 }} }}"),
             &format!("{lamp}, {shape}, material: ball }}"),
-            "path_bits: 8, depths: [{ bits: [8, 8] }, { bits: [8, 8] }]",
+            "path_bits: 8, lights: none, depths: [{ bits: [8, 8] }, { bits: [8, 8] }]",
         );
         let scene = read(&scene, &["sampling.lights=none", "precision.fraction=20"]);
         let [real, fixed] = [Model::Real, Model::Fixed].map(|model| seen(&scene, model));
@@ -288,7 +288,7 @@ fn reflections_in_glass_do_not_enter_it() {
         "eye: [0, 0, 5], target: [0, 0, 0], vfov: 24",
         "ball: { dielectric: { ior: 2 } }",
         &format!("{}, material: ball }}", mesh(1, true, "auto")),
-        "path_bits: 9, depths: [{ bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }]",
+        "path_bits: 9, lights: none, depths: [{ bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }, { bits: [8, 8] }]",
     );
     for fraction in [8, 12, 16] {
         let few = [
@@ -349,7 +349,7 @@ fn normals_of_too_thin_faces_are_refused() {
             "eye: [0, 0, 3], target: [0, 0, 0], vfov: 30",
             "ball: { mirror: { reflectance: 1 } }",
             &format!("mesh: {{ obj: {name}, material: ball, smooth: {smooth} }}"),
-            "path_bits: 2, depths: [{ bits: [4, 4] }, { bits: [4, 4] }]",
+            "path_bits: 2, lights: none, depths: [{ bits: [4, 4] }, { bits: [4, 4] }]",
         );
         read(&scene, &["sky={ radiance: 1 }"])
     };

@@ -48,7 +48,7 @@ fn a_convex_white_thing_under_a_white_sky_cannot_be_seen() {
         let geometry =
             format!("  - sphere: {{ center: [0.1, 0, 0.2], radius: 1, material: {material} }}");
         let sampling = format!(
-            "sampling: {{ path_bits: 12, depths: {} }}",
+            "sampling: {{ path_bits: 12, lights: none, depths: {} }}",
             depths(rays, "")
         );
         let scene = from_above(&geometry, &format!("sky: {{ radiance: 1 }}\n{sampling}"));

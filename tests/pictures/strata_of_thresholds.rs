@@ -20,7 +20,7 @@ materials:
 geometry:
   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: wall }
   - quad: { vertices: [[-1, -1, 3], [-1, 1, 3], [1, 1, 3], [1, -1, 3]], material: lamp }
-sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }] }
+sampling: { path_bits: 8, depths: [{ bits: [6, 6] }, { bits: [6, 6] }], lights: none }
 comparator: { bits: 8 }
 counting: { phase_bits: 10, estimator: adaptive-bayes }
 ";

@@ -52,7 +52,7 @@ fn every_key_is_read() {
     assert_eq!(scene.materials.len(), 8);
     assert_eq!(scene.sampling.sequence, Sequence::ProductLattice);
     assert_eq!(scene.sampling.depths[0].bits, [6, 4]);
-    assert_eq!(scene.sampling.depths[1].light, Some([3, 4]));
+    assert_eq!(scene.sampling.depths[1].light, [3, 4].into());
     assert_eq!(scene.sampling.lights, Lights::Mis);
     assert_eq!(scene.precision.fraction, Some(14));
     assert_eq!(

@@ -22,8 +22,8 @@ use std::ops::Range;
 mod made {
     use qrt_scene::{
         Camera, Circuit, Comparator, ComparatorAt, Counting, DepthSampling, Emitter, Estimator,
-        Film, Geometry, Lambertian, Lights, Map, Material, Nearest, Perspective, Precision,
-        Reflectance::Uniform, Sampling, Scene, Sequence, Uncompute, Window,
+        Film, Geometry, Lambertian, LightPoint, Lights, Map, Material, Nearest, Perspective,
+        Precision, Reflectance::Uniform, Sampling, Scene, Sequence, Uncompute, Window,
     };
     include!(concat!(env!("OUT_DIR"), "/picture.rs"));
 }

@@ -62,7 +62,7 @@ geometry:
          material: dark }}
   - quad: {{ vertices: [[{EDGE}, 1, -9e3], [9e3, 1, -9e3], [9e3, 1, 9e3], [{EDGE}, 1, 9e3]], \
          material: glow }}
-sampling: {{ sequence: {sequence}, path_bits: {PATH_BITS}, depths: [{}] }}
+sampling: {{ sequence: {sequence}, path_bits: {PATH_BITS}, depths: [{}], lights: none }}
 ",
         depths.join(", ")
     );

@@ -15,7 +15,7 @@ materials:
 geometry:
   - quad: { vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor }
   - quad: { vertices: [[-9, 5, -9], [9, 5, -9], [9, 5, 9], [-9, 5, 9]], material: sky }
-sampling: { path_bits: 6, depths: [{ bits: [3, 3] }, { bits: [3, 3] }] }
+sampling: { path_bits: 6, depths: [{ bits: [3, 3] }, { bits: [3, 3] }], lights: none }
 precision: { fraction: 10 }
 comparator: { bits: 5 }
 ";

@@ -214,6 +214,7 @@ geometry:
   - quad: {{ vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], material: lamp }}
 sampling:
   path_bits: 4
+  lights: none
   depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], map: uniform-hemisphere }}, {{ bits: [4, 4], map: uniform-hemisphere }}]
 "
         );
@@ -257,6 +258,7 @@ sampling:
             &format!("{path}, {path}"),
             "{ bits: [4, 4], light: [4, 4] }",
         );
+        let text = text.replace("  lights: none\n", "");
         let scene = parse(&text, "tilted.yaml", &[], "".as_ref()).unwrap().valid;
         let costs = Oracles::new(&scene).costs().unwrap();
         assert_eq!(costs.len(), 6);

@@ -50,7 +50,7 @@ pub(super) fn lit(sampling: &Sampling) -> Sampling {
     }
     lit.lights = Lights::Auto;
     for depth in lit.depths.iter_mut().skip(1) {
-        depth.light = Some([FINE; 2]);
+        depth.light = [FINE; 2].into();
     }
     lit
 }

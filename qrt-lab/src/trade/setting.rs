@@ -238,7 +238,7 @@ fn even(lattice: &mut Sampling) {
         match square {
             Square::Ray => lattice.depths[depth].bits = bits,
             Square::Light if depth == 0 => lattice.depths[0].lens = Some(bits),
-            Square::Light => lattice.depths[depth].light = Some(bits),
+            Square::Light => lattice.depths[depth].light = bits.into(),
         }
     }
 }

@@ -19,7 +19,7 @@ materials:
 geometry:
   - quad: { vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: floor }
   - quad: { vertices: [[-1, 1.5, -1], [1, 1.5, -1], [1, 1.5, 1], [-1, 1.5, 1]], material: lamp }
-sampling: { path_bits: 6, depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+sampling: { path_bits: 6, depths: [{ bits: [8, 8] }, { bits: [8, 8] }], lights: none }
 precision: { fraction: 10 }
 comparator: { bits: 6 }
 counting: { phase_bits: 5, estimator: sine }

@@ -16,7 +16,7 @@ materials:
 geometry:
   - quad: { vertices: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: floor }
   - quad: { vertices: [[0, -9, 3], [0, 9, 3], [9, 9, 3], [9, -9, 3]], material: lamp }
-sampling: { path_bits: 2, depths: [{ bits: [1, 1] }, { bits: [2, 1] }] }
+sampling: { path_bits: 2, depths: [{ bits: [1, 1] }, { bits: [2, 1] }], lights: none }
 precision: { fraction: 6 }
 comparator: { bits: 2 }
 circuit: { uncompute: scoped }

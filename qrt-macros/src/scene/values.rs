@@ -51,7 +51,7 @@ impl Sort {
             (
                 _,
                 "sequence" | "map" | "at" | "window" | "estimator" | "uncompute" | "nearest"
-                | "fraction" | "lights",
+                | "fraction" | "lights" | "light",
             ) => Self::Word,
             (_, "name" | "obj" | "ply" | "gltf") => Self::Text,
             _ => Self::Plain,

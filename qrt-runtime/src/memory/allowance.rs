@@ -415,7 +415,10 @@ geometry:
             );
         }
         let rays = vec!["{ bits: [6, 6] }"; rays].join(", ");
-        let _ = writeln!(text, "sampling: {{ path_bits: 10, depths: [{rays}] }}");
+        let _ = writeln!(
+            text,
+            "sampling: {{ path_bits: 10, depths: [{rays}], lights: none }}"
+        );
         let loaded = qrt_scene::front::parse(&text, "tunnel.yaml", &[], "".as_ref());
         loaded.unwrap_or_else(|report| panic!("{report}")).valid
     }

@@ -55,7 +55,7 @@ fn points_on_lamps_have_the_dimensions_after_all_rays() {
     let rays = [0, 1, 2].map(|k| [Coordinate::u(k), Coordinate::v(k)]);
     assert_eq!(order(&written), rays.concat());
     for depth in &mut written.depths[1..] {
-        depth.light = Some([5, 6]);
+        depth.light = [5, 6].into();
     }
     let lamps = [1, 2].map(|k| [Coordinate::light_u(k), Coordinate::light_v(k)]);
     assert_eq!(order(&written), [rays.concat(), lamps.concat()].concat());

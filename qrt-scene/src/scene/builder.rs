@@ -185,35 +185,26 @@ impl SceneBuilder {
 
     /// Adds a convex quadrilateral of a material, by four points around its outline.
     pub fn quad<V: Into<DVec3>>(self, material: &str, vertices: [V; 4]) -> Self {
-        self.geometry(Quad {
-            vertices: vertices.map(Into::into),
-            material: material.to_owned(),
-        })
+        self.geometry(Quad::new(vertices.map(Into::into), material))
     }
 
     /// Adds a triangle of a material, by three points.
     pub fn triangle<V: Into<DVec3>>(self, material: &str, vertices: [V; 3]) -> Self {
-        self.geometry(Triangle {
-            vertices: vertices.map(Into::into),
-            material: material.to_owned(),
-        })
+        self.geometry(Triangle::new(vertices.map(Into::into), material))
     }
 
     /// Adds a sphere of a material.
     pub fn sphere(self, material: &str, center: impl Into<DVec3>, radius: f64) -> Self {
-        self.geometry(Sphere {
-            center: center.into(),
-            radius,
-            material: material.to_owned(),
-        })
+        self.geometry(Sphere::new(center.into(), radius, material))
     }
 
     /// Adds a box of a material along the axes, by its corners with the least and the greatest
-    /// coordinates. Pass a [`Cuboid`] to [`SceneBuilder::geometry`] for a rotated box.
+    /// coordinates. Pass a [`Cuboid`] to [`SceneBuilder::geometry`] for a box that is moved.
     pub fn cuboid(self, material: &str, min: impl Into<DVec3>, max: impl Into<DVec3>) -> Self {
         self.geometry(Cuboid {
             min: min.into(),
             max: max.into(),
+            scale: 1.0,
             rotate: DVec3::ZERO,
             translate: DVec3::ZERO,
             material: material.to_owned(),

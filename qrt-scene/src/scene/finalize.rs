@@ -1,28 +1,24 @@
 //! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
-use super::shape::{Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
+use super::shape::{
+    Array, Expression, List, PartShape, Shape, Whole, is_auto, is_word, part, whole,
+};
 use super::{
-    Data, DepthSampling, Jacobian, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky, Square,
+    Data, DepthSampling, Jacobian, LightPoint, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence,
+    Sky, Square,
 };
 use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
 
-/// Lets all rays but the primary one sample lamps, if `depths` is a number (validation takes that
-/// back where a scene has no lamps). Sets `path_bits`, if it is not written, to the sum of all bits
-/// under the product lattice. The sum is clamped to the range, so that too large a sum is reported
-/// for the bits, not for a key that is not written.
+/// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The sum is
+/// clamped to the range, so that too large a sum is reported for the bits, not for a key that is not
+/// written.
 pub(super) fn sampling(
     mut sampling: Sampling,
     node: &Node,
     _: &Place<'_>,
     _: &mut Problems,
 ) -> Sampling {
-    let depths = node.entry("depths");
-    if depths.is_some_and(|entry| is_number(&entry.value)) && sampling.lights != Lights::None {
-        for depth in sampling.depths.iter_mut().skip(1) {
-            depth.light = Some(depth.bits);
-        }
-    }
     if sampling.sequence == Sequence::ProductLattice && node.entry("path_bits").is_none() {
         sampling.path_bits = sampling.lattice_bits().min(super::MAX_PATH_BITS);
     }
@@ -43,10 +39,13 @@ impl Sampling {
     }
 
     /// Returns the bits of the point on a lamp that is connected to the start of the ray of
-    /// `depth`; `None` if no lamp is sampled there.
+    /// `depth`; `None` if no lamp is sampled there, or if that is not decided yet, as in a scene that
+    /// is not validated and has [`LightPoint::Auto`].
     pub fn light(&self, depth: usize) -> Option<[u32; 2]> {
-        let light = self.depths.get(depth)?.light;
-        light.filter(|_| self.lights != Lights::None && depth > 0)
+        match self.depths.get(depth)?.light {
+            LightPoint::Bits(bits) if self.lights != Lights::None && depth > 0 => Some(bits),
+            _ => None,
+        }
     }
 
     /// Iterates over the squares that a path samples, each with its depth and bits, in the order of
@@ -210,6 +209,48 @@ impl Shape for JacobianShape {
     }
 }
 
+/// The shape of a point on a lamp: `auto`, `none`, or its bits.
+pub(super) struct LightPointShape;
+
+impl LightPointShape {
+    const BITS: Array<Whole<u32>, 2> = Array(whole::<u32>(0, 16));
+    const WORDS: [(&'static str, LightPoint); 2] =
+        [("auto", LightPoint::Auto), ("none", LightPoint::None)];
+}
+
+impl Shape for LightPointShape {
+    type Value = LightPoint;
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> LightPoint {
+        let word = Self::WORDS.iter().find(|(word, _)| is_word(node, word));
+        word.map_or_else(
+            || LightPoint::Bits(Self::BITS.decode(node, at, problems)),
+            |(_, light)| *light,
+        )
+    }
+    fn fallback(&self) -> LightPoint {
+        LightPoint::Auto
+    }
+    fn check(&self, value: &LightPoint, at: &Place<'_>, problems: &mut Problems) {
+        if let LightPoint::Bits(bits) = value {
+            Self::BITS.check(bits, at, problems);
+        }
+    }
+    fn encode(&self, value: &LightPoint) -> Option<Data> {
+        match value {
+            LightPoint::Bits(bits) => Self::BITS.encode(bits),
+            // It is the default, and would fill the text of every scene.
+            LightPoint::Auto => None,
+            LightPoint::None => Some(Data::text("none")),
+        }
+    }
+    fn schema(&self) -> Data {
+        let words = Self::WORDS.iter();
+        let words = words.map(|(word, _)| Data::map([("const", Data::text(*word))]));
+        let shapes = words.chain([Self::BITS.schema()]);
+        Data::map([("anyOf", Data::List(shapes.collect()))])
+    }
+}
+
 /// The shape of a path's rays: a list, or their number.
 pub(super) struct Depths;
 
@@ -247,13 +288,11 @@ impl Shape for Depths {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::DepthSampling;
-
-    #[test]
-    fn a_number_of_rays_samples_lamps_where_there_are_any() {
-        let depths = |material: &str, sampling: &str| {
-            let text = format!(
-                "name: n
+    /// Returns the points on lamps of the rays of a scene with this material, beside a wall, and with
+    /// these keys of `sampling`.
+    fn points(material: &str, sampling: &str) -> Vec<Option<[u32; 2]>> {
+        let text = format!(
+            "name: n
 camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 40 }} }}
 film: {{ width: 1, height: 1 }}
 sky: {{ radiance: 1 }}
@@ -262,23 +301,49 @@ geometry:
 - sphere: {{ center: [0, 0, 0], radius: 1, material: m }}
 - sphere: {{ center: [3, 0, 0], radius: 1, material: wall }}
 sampling: {{ {sampling} }}"
-            );
-            let parsed = crate::front::parse(&text, "n.yaml", &[], "".as_ref());
-            let parsed = parsed.unwrap_or_else(|report| panic!("{report}"));
-            parsed.valid.scene().sampling.depths.clone()
-        };
-        let plain = DepthSampling::default();
-        let lit = DepthSampling {
-            light: Some([8, 8]),
-            ..plain.clone()
-        };
-        let lamp = "{ emitter: { radiance: 1 } }";
-        let grey = "{ lambertian: { albedo: 0.5 } }";
-        assert_eq!(depths(lamp, "depths: 3"), [plain.clone(), lit.clone(), lit]);
-        assert_eq!(
-            depths(lamp, "depths: 2, lights: none"),
-            [plain.clone(), plain.clone()]
         );
-        assert_eq!(depths(grey, "depths: 2"), [plain.clone(), plain]);
+        let parsed = crate::front::parse(&text, "n.yaml", &[], "".as_ref());
+        let parsed = parsed.unwrap_or_else(|report| panic!("{report}"));
+        let warnings = parsed.valid.warnings();
+        assert!(warnings.is_empty(), "{sampling}: {warnings:?}");
+        let sampling = &parsed.valid.scene().sampling;
+        let depths = 0..sampling.depths.len();
+        depths.map(|depth| sampling.light(depth)).collect()
+    }
+
+    const LAMP: &str = "{ emitter: { radiance: 1 } }";
+
+    #[test]
+    fn rays_sample_lamps_where_there_are_any() {
+        let lit = Some([8, 8]);
+        for sampling in [
+            "depths: 3",
+            "path_bits: 4",
+            "depths: [{ bits: [4, 4] }, { bits: [0, 0] }, { bits: [9, 9], light: auto }]",
+        ] {
+            assert_eq!(points(LAMP, sampling), [None, lit, lit], "{sampling}");
+            let grey = "{ lambertian: { albedo: 0.5 } }";
+            assert_eq!(points(grey, sampling), [None; 3], "{sampling}");
+        }
+        let one = "depths: [{ bits: [4, 4] }, { bits: [4, 4], light: none }, { bits: [4, 4], light: [3, 2] }, \
+                    { bits: [4, 4] }]";
+        assert_eq!(points(LAMP, one), [None, None, Some([3, 2]), lit]);
+    }
+
+    #[test]
+    fn rays_sample_no_lamps_where_the_scene_says_so() {
+        assert_eq!(points(LAMP, "depths: 2, lights: none"), [None; 2]);
+        let lattice = "sequence: product-lattice, depths: [{ bits: [4, 4] }, { bits: [4, 4] }]";
+        assert_eq!(points(LAMP, lattice), [None; 2]);
+    }
+
+    /// The net has dimensions for 64 squares, of which the rays come first.
+    #[test]
+    fn the_first_rays_sample_lamps_where_the_net_has_too_few_dimensions() {
+        let count = |rays: usize| {
+            let points = points(LAMP, &format!("depths: {rays}"));
+            points.iter().flatten().count()
+        };
+        assert_eq!([32, 33, 40, 63, 64].map(count), [31, 31, 24, 1, 0]);
     }
 }

@@ -30,8 +30,8 @@ use record::{keyword, record, variant};
 pub use reflectance::{Checker, Pattern, Reflectance};
 use reflectance::{REFLECTED, ReflectanceShape};
 use shape::{
-    Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Part, Text,
-    number, part, point, whole, word,
+    Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Omitted,
+    Part, Text, number, part, point, whole, word,
 };
 use std::sync::Arc;
 use text::{Data, Fingerprint};
@@ -325,27 +325,40 @@ variant! {
 }
 
 record! {
-    /// A convex quadrilateral; one that is not planar splits along v0-v2.
+    /// A convex quadrilateral, scaled, then rotated, then translated; one that is not planar splits along
+    /// v0-v2.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Quad = "a quad";
     /// Four points around the outline, in scene units; (v1 - v0) x (v2 - v0) is the front.
     pub vertices: [DVec3; 4] = Array::<_, 4>(point());
     /// The name of a material.
     pub material: String = Text;
+    /// The factor of its size, about the origin: 1 if it is left out.
+    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
+    /// Degrees about x, then y, then z, all through the origin; default none.
+    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
 }
 
 record! {
-    /// A triangle.
+    /// A triangle, scaled, then rotated, then translated.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Triangle = "a triangle";
     /// Three points, in scene units; (v1 - v0) x (v2 - v0) is the front.
     pub vertices: [DVec3; 3] = Array::<_, 3>(point());
     /// The name of a material.
     pub material: String = Text;
+    /// The factor of its size, about the origin: 1 if it is left out.
+    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
+    /// Degrees about x, then y, then z, all through the origin; default none.
+    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
 }
 
 record! {
-    /// A sphere, whose front is outside.
+    /// A sphere, whose front is outside, scaled, then rotated, then translated.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Sphere = "a sphere";
     /// The centre, in scene units.
@@ -354,17 +367,25 @@ record! {
     pub radius: f64 = LENGTH;
     /// The name of a material.
     pub material: String = Text;
+    /// The factor of its size, about the origin: 1 if it is left out.
+    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
+    /// Degrees about x, then y, then z, all through the origin; default none.
+    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
 }
 
 record! {
-    /// A box, whose fronts are outside: along the axes from `min` to `max`, then rotated, then
-    /// translated.
+    /// A box, whose fronts are outside: along the axes from `min` to `max`, then scaled, then rotated,
+    /// then translated.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Cuboid = "a box";
     /// The corner with the least coordinates, in scene units.
     pub min: DVec3 = point();
     /// The corner with the greatest coordinates, in scene units.
     pub max: DVec3 = point();
+    /// The factor of its size, about the origin: 1 if it is left out.
+    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
     /// Degrees about x, then y, then z, all through the origin; default none.
     pub rotate: DVec3 = point(), or DVec3::ZERO;
     /// Added to every point, in scene units; default none.
@@ -422,6 +443,46 @@ impl MeshFormat {
     }
 }
 
+impl Quad {
+    /// Creates a quad of a material from four points around its outline.
+    pub fn new(vertices: [DVec3; 4], material: impl Into<String>) -> Self {
+        Self {
+            vertices,
+            material: material.into(),
+            scale: 1.0,
+            rotate: DVec3::ZERO,
+            translate: DVec3::ZERO,
+        }
+    }
+}
+
+impl Triangle {
+    /// Creates a triangle of a material from three points.
+    pub fn new(vertices: [DVec3; 3], material: impl Into<String>) -> Self {
+        Self {
+            vertices,
+            material: material.into(),
+            scale: 1.0,
+            rotate: DVec3::ZERO,
+            translate: DVec3::ZERO,
+        }
+    }
+}
+
+impl Sphere {
+    /// Creates a sphere of a material.
+    pub fn new(center: DVec3, radius: f64, material: impl Into<String>) -> Self {
+        Self {
+            center,
+            radius,
+            material: material.into(),
+            scale: 1.0,
+            rotate: DVec3::ZERO,
+            translate: DVec3::ZERO,
+        }
+    }
+}
+
 impl Mesh {
     /// Returns the format and the name of the mesh's file; `None` if the mesh has no file or
     /// several.
@@ -448,9 +509,9 @@ record! {
     /// only that.
     pub path_bits: u32 = whole::<u32>(0, MAX_PATH_BITS), or 12;
     /// One entry per ray of a path, the primary ray first; or the number of rays, each with 8 bits per
-    /// coordinate, which sample lamps where a material emits. Default three, which do not.
+    /// coordinate. Default three.
     pub depths: Vec<DepthSampling> = finalize::Depths, or vec![DepthSampling::of_bits([8, 8]); 3];
-    /// The sampling of lamps at the depths that have `light` bits.
+    /// The sampling of lamps at the depths that have a point on a lamp.
     pub lights: Lights = word::<Lights>(), or Lights::Auto;
 }
 
@@ -489,11 +550,33 @@ record! {
     /// The map from the unit square to directions; not for the primary ray.
     pub map: Map = word::<Map>(), or Map::Auto;
     /// Resolution, in bits, of the point on a lamp that is connected to the surface which this ray
-    /// leaves; not for the primary ray. Without it no lamp is sampled there.
-    pub light: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 16))), or None;
+    /// leaves; not for the primary ray. `none`: no lamp is sampled there. `auto`, the default: `[8, 8]` where
+    /// a material emits and a surface samples lamps, more bits for more than 256 lamps. `auto` is `none`
+    /// under `product-lattice`, above 65,536 lamps, and for rays for which the net has no dimensions left.
+    pub light: LightPoint = finalize::LightPointShape, or LightPoint::Auto;
     /// Resolution, in bits, of the point on the camera's lens; for the primary ray alone. Default the
     /// primary ray's `bits`, if the camera has a lens.
     pub lens: Option<[u32; 2]> = Maybe(Array::<_, 2>(whole::<u32>(0, 24))), or None;
+}
+
+/// The sampling of a point on a lamp at the start of a ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightPoint {
+    /// Under the digital net, `[8, 8]` bits where a material emits and a surface samples lamps; more if
+    /// there are more than 2^8 lamps, and none above 2^16 lamps or beyond the net's dimensions. Under the
+    /// product lattice, whose path bits are the sum of all bits, none.
+    #[default]
+    Auto,
+    /// None: this ray starts without a connection to a lamp.
+    None,
+    /// The resolution, in bits, of its two coordinates.
+    Bits([u32; 2]),
+}
+
+impl From<[u32; 2]> for LightPoint {
+    fn from(bits: [u32; 2]) -> Self {
+        Self::Bits(bits)
+    }
 }
 
 impl Scene {
@@ -512,7 +595,7 @@ impl DepthSampling {
         Self {
             bits,
             map: Map::Auto,
-            light: None,
+            light: LightPoint::Auto,
             lens: None,
         }
     }
@@ -689,8 +772,8 @@ impl Scene {
         data
     }
 
-    /// Returns the scene as YAML, with every default written out. A valid scene survives the round
-    /// trip.
+    /// Returns the scene as YAML, with every default written out but the transforms of single shapes and
+    /// `light: auto`. A valid scene survives the round trip.
     pub fn to_yaml(&self) -> String {
         self.encode().to_yaml()
     }

@@ -92,24 +92,25 @@ pub(super) fn polygons(
         match primitive {
             Geometry::Quad(quad) => {
                 let surface = build.surface(&quad.material, &path);
-                build.quad(&quad.vertices, surface, &path);
+                let moved = Transform::of_shape(quad.scale, quad.rotate, quad.translate);
+                if let Some(vertices) = build.moved(quad.vertices, moved, &path) {
+                    build.quad(&vertices, surface, &path);
+                }
             }
             Geometry::Triangle(triangle) => {
                 let surface = build.surface(&triangle.material, &path);
-                build.triangle(&triangle.vertices, surface, &path);
+                let moved =
+                    Transform::of_shape(triangle.scale, triangle.rotate, triangle.translate);
+                if let Some(vertices) = build.moved(triangle.vertices, moved, &path) {
+                    build.triangle(&vertices, surface, &path);
+                }
             }
             Geometry::Sphere(sphere) => {
                 let surface = build.surface(&sphere.material, &path);
-                // The first of several in one place hides the others.
-                let [x, y, z] = (sphere.center + DVec3::ZERO).to_array();
-                let place = [x, y, z, sphere.radius].map(f64::to_bits);
-                if build.spheres.insert(place) {
-                    build.balls.push(Ball {
-                        centre: sphere.center,
-                        radius: sphere.radius,
-                        surface,
-                        primitive: index,
-                    });
+                let moved = Transform::of_shape(sphere.scale, sphere.rotate, sphere.translate);
+                if let Some([centre]) = build.moved([sphere.center], moved, &path) {
+                    let radius = sphere.radius * sphere.scale;
+                    build.ball(centre, radius, (surface, index), &path);
                 }
             }
             Geometry::Cuboid(cuboid) => {
@@ -224,6 +225,57 @@ impl<'a> Build<'a> {
         }
     }
 
+    /// Moves the points of a shape. Reports points that are moved out of range. Returns `None` for a shape
+    /// whose place is not known.
+    fn moved<const N: usize>(
+        &mut self,
+        points: [DVec3; N],
+        transform: Option<Transform>,
+        path: &Path,
+    ) -> Option<[DVec3; N]> {
+        let mut keys = ["scale", "rotate", "translate"].into_iter();
+        if keys.any(|key| self.problems.touches(&path.key(key))) {
+            return None;
+        }
+        let Some(transform) = transform else {
+            return Some(points);
+        };
+        let moved = points.map(|point| transform.apply(point));
+        if moved.iter().all(|&point| is_in_range(point)) {
+            return Some(moved);
+        }
+        if !self.problems.touches(path) {
+            self.problems.add(path.clone(), Fault::Far);
+        }
+        None
+    }
+
+    /// Adds a sphere, unless there is one in its place: the first of several hides the others.
+    fn ball(
+        &mut self,
+        centre: DVec3,
+        radius: f64,
+        (surface, primitive): (u32, usize),
+        path: &Path,
+    ) {
+        if !(radius > 0.0 && radius <= LARGEST) {
+            if !self.problems.touches(path) {
+                self.problems.add(path.clone(), Fault::Far);
+            }
+            return;
+        }
+        let [x, y, z] = (centre + DVec3::ZERO).to_array();
+        let place = [x, y, z, radius].map(f64::to_bits);
+        if self.spheres.insert(place) {
+            self.balls.push(Ball {
+                centre,
+                radius,
+                surface,
+                primitive,
+            });
+        }
+    }
+
     /// Adds the six quads of a box.
     fn cuboid(&mut self, cuboid: &Cuboid, surface: u32, path: &Path) {
         let [min, max] = ["min", "max"].map(|key| path.key(key));
@@ -236,7 +288,7 @@ impl<'a> Build<'a> {
             let problem = Problem::new(max, Fault::NoVolume { axes });
             return self.problems.push(problem.also(min));
         }
-        let transform = Transform::new(1.0, cuboid.rotate, cuboid.translate);
+        let transform = Transform::new(cuboid.scale, cuboid.rotate, cuboid.translate);
         let faces = BOX.map(|corners| {
             corners.map(|corner| {
                 let far = BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0);
@@ -566,6 +618,12 @@ struct Transform {
 }
 
 impl Transform {
+    /// Returns the transform of a shape; `None` if it stays as it is.
+    fn of_shape(scale: f64, rotate: DVec3, translate: DVec3) -> Option<Self> {
+        let stays = scale == 1.0 && rotate == DVec3::ZERO && translate == DVec3::ZERO;
+        (!stays).then(|| Self::new(scale, rotate, translate))
+    }
+
     fn new(scale: f64, rotate: DVec3, translate: DVec3) -> Self {
         let [x, y, z] = rotate.to_array().map(sin_cos_degrees);
         let turn = |v: DVec3| {

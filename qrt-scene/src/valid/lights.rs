@@ -2,62 +2,75 @@
 
 use super::{Polygon, Scatter, Surface, ValidScene};
 use crate::lights::{LitFace, Reached, is_parallelogram, strongest_of};
-use crate::scene::{Lights, Sequence};
+use crate::sampling::MAX_DIMENSIONS;
+use crate::scene::{LightPoint, Lights, Sampling, Sequence};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 use glam::DVec3;
 
 /// Maximum number of pairs of a surface's polygon and a lamp's for which a bound is computed.
 pub const MOST_PAIRS: usize = 1 << 18;
 
-/// Checks the sampling of lamps. Removes it if there is no lamp, of which the scene has a warning,
-/// or with a warning if no surface could use it. Cuts lamps into shapes that can be sampled.
+/// Number of bits of each coordinate of a point on a lamp, if the scene does not say, and the greatest.
+const BITS: u32 = 8;
+const MOST_BITS: u32 = 16;
+
+/// Decides about points on lamps that are `auto`, and checks the others. Removes those of which no
+/// surface would make use: with a warning if they are written, and if there is a lamp, for a scene without
+/// one has a warning of its own. Cuts lamps into shapes that can be sampled.
 pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
     let sampling = &valid.scene.sampling;
-    let depths = Path::root().key("sampling").key("depths");
-    let asked = |depth: &usize| sampling.light(*depth).is_some();
-    let asked: Vec<usize> = (0..sampling.depths.len()).filter(asked).collect();
-    let Some(&first) = asked.first() else {
-        return;
-    };
-    if problems.count() > 0 {
+    if sampling.lights == Lights::None || problems.count() > 0 {
         // Another problem may be the cause that nothing emits.
         return;
     }
+    let depths = Path::root().key("sampling").key("depths");
     let light = |depth: usize| depths.item(depth).key("light");
+    let written = (0..sampling.depths.len()).find(|&depth| sampling.light(depth).is_some());
     let any = |holds: fn(&Surface) -> bool| {
         let mut faces = valid.surface_of_faces();
         faces.any(|surface| holds(&valid.materials[surface as usize]))
     };
     let (emits, samples) = (any(Surface::emits), any(Surface::samples_lights));
     if !emits || !samples {
-        if emits {
-            let unused = Problem::new(light(first), Fault::NoReceiver);
+        if let Some(depth) = written.filter(|_| emits) {
+            let unused = Problem::new(light(depth), Fault::NoReceiver);
             valid.warnings.push(unused);
         }
         let sampling = &mut valid.scene.sampling;
         for depth in &mut sampling.depths {
-            depth.light = None;
+            depth.light = LightPoint::None;
         }
         if sampling.sequence == Sequence::ProductLattice {
             sampling.path_bits = sampling.lattice_bits();
         }
         return;
     }
-    cut_lamps(valid);
-    let faces = faces(valid);
-    let lamps = || faces.iter().filter(|(_, surface)| surface.emits());
-    let count = lamps().count();
-    for depth in asked {
-        let [bits, _] = valid.scene.sampling.light(depth).unwrap_or_default();
-        if count > 1 << bits {
+    let count = count_lamps(valid);
+    let needed = count.next_power_of_two().ilog2();
+    let sampling = &mut valid.scene.sampling;
+    decide(sampling, needed);
+    let mut asked = Vec::new();
+    for depth in 0..sampling.depths.len() {
+        let Some([bits, _]) = sampling.light(depth) else {
+            continue;
+        };
+        asked.push(depth);
+        if bits < needed {
+            let lamps = count;
             let what = Fault::FewLightBits {
-                lamps: count,
+                lamps,
                 bits,
-                needed: count.next_power_of_two().ilog2(),
+                needed,
             };
             problems.push(Problem::new(light(depth).item(0), what));
         }
     }
+    if asked.is_empty() {
+        return;
+    }
+    cut_lamps(valid);
+    let faces = faces(valid);
+    let lamps = || faces.iter().filter(|(_, surface)| surface.emits());
     if valid.scene.sampling.lights == Lights::NextEvent {
         let matte = faces
             .iter()
@@ -80,6 +93,27 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
     }
 }
 
+/// Replaces `auto` for each ray by the bits of its point on a lamp, of which at least `needed` choose the
+/// lamp, or by none.
+fn decide(sampling: &mut Sampling, needed: u32) {
+    let squares = sampling.squares().count();
+    let mut left = match sampling.sequence {
+        Sequence::DigitalNet if needed <= MOST_BITS => MAX_DIMENSIONS / 2 - squares,
+        _ => 0,
+    };
+    for (depth, sampled) in sampling.depths.iter_mut().enumerate() {
+        if sampled.light == LightPoint::Auto {
+            let is_sampled = depth > 0 && left > 0;
+            left -= usize::from(is_sampled);
+            sampled.light = if is_sampled {
+                LightPoint::Bits([needed.max(BITS), BITS])
+            } else {
+                LightPoint::None
+            };
+        }
+    }
+}
+
 /// The faces of a scene with their surfaces.
 fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
     let mut smooth = valid.smooth.iter().map(|face| face.polygon).peekable();
@@ -97,6 +131,21 @@ fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
     polygons.chain(balls).zip(surfaces).collect()
 }
 
+/// Number of shapes of lamps, after those that are cut.
+fn count_lamps(valid: &ValidScene) -> usize {
+    let emits = |surface: u32| valid.materials[surface as usize].emits();
+    let polygons = valid.polygons.iter().filter(|face| emits(face.surface));
+    let polygons = polygons.map(|face| 1 + usize::from(is_cut(valid, face)));
+    let balls = valid.balls.iter().filter(|ball| emits(ball.surface));
+    polygons.sum::<usize>() + balls.count()
+}
+
+/// True if `polygon` emits and cannot be sampled in one piece.
+fn is_cut(valid: &ValidScene, polygon: &Polygon) -> bool {
+    let emits = valid.materials[polygon.surface as usize].emits();
+    emits && polygon.corners == 4 && !is_parallelogram(polygon.vertices)
+}
+
 /// Cuts each quadrilateral that emits and is no parallelogram into two triangles, since points on a lamp
 /// are an affine map of the unit square.
 fn cut_lamps(valid: &mut ValidScene) {
@@ -104,8 +153,7 @@ fn cut_lamps(valid: &mut ValidScene) {
     let mut moved = Vec::with_capacity(valid.polygons.len() + 1);
     for polygon in &valid.polygons {
         moved.push(cut.len());
-        let emits = valid.materials[polygon.surface as usize].emits();
-        if !emits || polygon.corners == 3 || is_parallelogram(polygon.vertices) {
+        if !is_cut(valid, polygon) {
             cut.push(*polygon);
             continue;
         }

@@ -2,7 +2,9 @@
 //! do not contradict each other.
 
 use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
-use crate::scene::{Comparator, Counting, Map, Precision, Sampling, Scene, Sequence, finalize};
+use crate::scene::{
+    Comparator, Counting, LightPoint, Map, Precision, Sampling, Scene, Sequence, finalize,
+};
 use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 
 /// Maximum number of bits of path index and comparator together: counts of their basis states stay
@@ -25,7 +27,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let map = path.key("depths").item(0).key("map");
         problems.add(map, Fault::PrimaryMap);
     }
-    if sampling.depths.first().is_some_and(|d| d.light.is_some()) {
+    let first = sampling.depths.first();
+    if first.is_some_and(|primary| matches!(primary.light, LightPoint::Bits(_))) {
         let light = path.key("depths").item(0).key("light");
         problems.add(light, Fault::PrimaryLight);
     }

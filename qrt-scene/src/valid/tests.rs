@@ -136,13 +136,13 @@ geometry:
   - triangle: { vertices: [[0, 0, 2], [0, 1, 2], [1, 0, 2]], material: l }
   # No parallelogram.
   - quad: { vertices: [[0, 0, 3], [0, 1, 3], [1, 2, 3], [1, 0, 3]], material: l }
-sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: none }] }
 ";
     let scene = crate::front::parse(text, "scene.yaml", &[], "".as_ref());
     let scene = scene.unwrap().valid;
     let with = |light: [u32; 2]| {
         let mut parameters = scene.parameters();
-        parameters.sampling.depths[1].light = Some(light);
+        parameters.sampling.depths[1].light = light.into();
         scene.with_parameters(parameters)
     };
     assert_eq!(with([8, 8]).unwrap().polygons().len(), 4);

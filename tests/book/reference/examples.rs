@@ -50,6 +50,7 @@ geometry:
         "\
 sampling:
   path_bits: 14
+  lights: none
   depths:
     - { bits: [8, 8] }
     - { bits: [8, 8], map: cosine-hemisphere }

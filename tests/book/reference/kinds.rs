@@ -90,6 +90,11 @@ pub(crate) fn kind(schema: &Value) -> String {
                 let word = word["const"].as_str().expect("a word");
                 format!("`{word}`, or a {}", kind(other))
             }
+            [first, second, other] if second.get("const").is_some() => {
+                let word = |choice: &Value| choice["const"].as_str().expect("a word").to_owned();
+                let (first, second) = (word(first), word(second));
+                format!("`{first}`, `{second}`, or {}", kind(other))
+            }
             [words, other] if words.get("enum").is_some() && other.get("pattern").is_some() => {
                 "one of the words below, or parts with hyphens between them".to_owned()
             }

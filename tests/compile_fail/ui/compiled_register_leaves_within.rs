@@ -8,7 +8,7 @@ qrt! {
         material lamp: emitter { radiance: rgb(1, 1, 1) },
         quad floor: white { (-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1) },
         quad light: lamp { (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1) },
-        sampling { path_bits: 4 }, depth primary { bits: (2, 2) }, depth secondary { bits: (2, 2) },
+        sampling { path_bits: 4, lights: none }, depth primary { bits: (2, 2) }, depth secondary { bits: (2, 2) },
     }
 }
 

@@ -8,7 +8,7 @@ qrt! {
         material lamp: emitter { radiance: rgb(3, 2, 1) },
         quad floor: white { (-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2) },
         quad light: lamp { (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1) },
-        sampling { path_bits: 2 },
+        sampling { path_bits: 2, lights: none },
         depth primary { bits: (2, 2) },
         depth secondary { bits: (2, 2) },
     }

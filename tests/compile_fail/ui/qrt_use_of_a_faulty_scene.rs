@@ -9,7 +9,7 @@ qrt! {
         material lamp: emitter { radiance: rgb(3, 2, 1) },
         quad floor: white { (-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2) },
         quad light: lamp { (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1) },
-        sampling { path_bits: 6 },
+        sampling { path_bits: 6, lights: none },
         depth primary { bits: (6, 6) },
         depth secondary { bits: (6, 6) },
     }

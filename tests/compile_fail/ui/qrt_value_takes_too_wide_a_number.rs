@@ -12,7 +12,7 @@ qrt! {
         material lamp: emitter { radiance: rgb(3, 2, 1) },
         quad floor: steep { (-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2) },
         quad light: lamp { (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1) },
-        sampling { path_bits: 4 },
+        sampling { path_bits: 4, lights: none },
         depth primary { bits: (4, 4) },
         depth secondary { bits: (4, 4) },
     }

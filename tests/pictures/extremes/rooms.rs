@@ -81,7 +81,7 @@ camera: {{ perspective: {{ eye: {:?}, target: {:?}, vfov: {} }} }}
 film: {{ width: {}, height: {} }}
 materials: {{ wall: {{ emitter: {{ radiance: {:?}, albedo: {ALBEDO:?} }} }} }}
 geometry:
-{geometry}sampling: {{ path_bits: 6, depths: [{{ bits: [4, 4] }}{bits}] }}
+{geometry}sampling: {{ path_bits: 6, depths: [{{ bits: [4, 4] }}{bits}], lights: none }}
 comparator: {{ bits: 10 }}
 ",
             (self.place)(self.eye),
@@ -240,7 +240,7 @@ materials:
 geometry:
   - quad: {{ vertices: [[-4, 0, -4], [-4, 0, 4], [4, 0, 4], [4, 0, -4]], material: floor }}
   - quad: {{ vertices: [[-0.5, 2, -0.5], [0.5, 2, -0.5], [0.5, 2, 0.5], [-0.5, 2, 0.5]], material: lamp }}
-sampling: {{ path_bits: 9, depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8] }}, {{ bits: [8, 8] }}, {{ bits: [8, 8] }}] }}
+sampling: {{ path_bits: 9, depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8] }}, {{ bits: [8, 8] }}, {{ bits: [8, 8] }}], lights: none }}
 comparator: {{ bits: 20 }}
 precision: {{ fraction: {fraction} }}
 "
@@ -374,7 +374,7 @@ materials:
 geometry:
   - quad: {{ vertices: [[-4, 0, -4], [-4, 0, 4], [4, 0, 4], [4, 0, -4]], material: floor }}
   - quad: {{ vertices: [[-5e-5, 2e-4, -5e-5], [5e-5, 2e-4, -5e-5], [5e-5, 2e-4, 5e-5], [-5e-5, 2e-4, 5e-5]], material: lamp }}
-sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}] }}"
+sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}], lights: none }}"
         )
     };
     assert_eq!(

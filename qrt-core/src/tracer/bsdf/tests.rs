@@ -31,7 +31,7 @@ camera: {{ perspective: {{ eye: [0, 0, 3], target: [0, 0, 0], vfov: 45 }} }}
 film: {{ width: 1, height: 1 }}
 materials: {{ m: {material} }}
 geometry: [{{ triangle: {{ vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], material: m }} }}]
-sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} }}] }}"
+sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} }}], lights: none }}"
         );
         match parse(&text, "bench.yaml", &[], "".as_ref()) {
             Ok(loaded) => Self {

@@ -224,7 +224,7 @@ geometry:
             writeln!(text, "{line}").unwrap();
         }
     }
-    text.push_str("sampling: { depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }");
+    text.push_str("sampling: { depths: [{ bits: [4, 4] }, { bits: [4, 4] }], lights: none }");
     staged(&text)
 }
 

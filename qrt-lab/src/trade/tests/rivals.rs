@@ -16,7 +16,10 @@ fn lit() -> String {
     let two = "[[-0.3, 3, 0], [0, 3, 0], [0, 3, 0.6], [-0.3, 3, 0.6]], material: lamp }
   - quad: { vertices: [[0, 3, 0], [0.3, 3, 0], [0.3, 3, 0.6], [0, 3, 0.6]], material: lamp }";
     assert!(LIT.contains(lamp));
-    let text = LIT.replace("{ bits: [8, 8] }] }", "{ bits: [8, 8], light: [8, 8] }] }");
+    let text = LIT.replace(
+        "{ bits: [8, 8] }], lights: none }",
+        "{ bits: [8, 8], light: [8, 8] }] }",
+    );
     text.replace(lamp, two)
 }
 
@@ -91,7 +94,7 @@ fn rivals_are_measured_against_the_same_limit() {
 /// Checks that rivals sample lamps that the scene does not, and come nearer to the same limit.
 #[test]
 fn rivals_sample_lamps_that_the_scene_does_not() {
-    let scene = scene(&lit().replace(", light: [8, 8]", ""));
+    let scene = scene(&lit().replace("light: [8, 8]", "light: none"));
     let mut bench = bench(&scene);
     let nets = rival(&mut bench, &scene, Sweep::ClassicalNet);
     let blind = of(&scene, Sweep::Paths)[0];

@@ -165,7 +165,7 @@ geometry:
   - triangle: { vertices: [[-0.5, 1.9, 0.5], [0.5, 1.9, -0.5], [0.5, 1.9, 0.5]], material: lamp }
 precision: { fraction: 10 }
 comparator: { bits: 6 }
-sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }] }
+sampling: { path_bits: 9, depths: [{ bits: [3, 3] }, { bits: [5, 5] }], lights: none }
 ";
 
     /// Returns the counts and colours of every path of every pixel, by channel, from the gates

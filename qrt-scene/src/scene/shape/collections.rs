@@ -248,9 +248,39 @@ impl<S: Shape> Shape for Maybe<S> {
 /// `auto`, or a value.
 pub(crate) struct AutoOr<S>(pub(crate) S);
 
+/// A value that an encoder leaves out if it is this one, its default.
+pub(crate) struct Omitted<S: Shape>(pub(crate) S, pub(crate) S::Value);
+
+impl<S: Shape> Shape for Omitted<S>
+where
+    S::Value: PartialEq,
+{
+    type Value = S::Value;
+    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
+        self.0.decode(node, at, problems)
+    }
+    fn fallback(&self) -> Self::Value {
+        self.0.fallback()
+    }
+    fn check(&self, value: &Self::Value, at: &Place<'_>, problems: &mut Problems) {
+        self.0.check(value, at, problems);
+    }
+    fn encode(&self, value: &Self::Value) -> Option<Data> {
+        self.0.encode(value).filter(|_| *value != self.1)
+    }
+    fn schema(&self) -> Data {
+        self.0.schema()
+    }
+}
+
+/// True if `node` is this word.
+pub(crate) fn is_word(node: &Node, word: &str) -> bool {
+    matches!(&node.value, Value::Scalar(scalar) if scalar.text == word)
+}
+
 /// True if `node` is the word `auto`.
 pub(crate) fn is_auto(node: &Node) -> bool {
-    matches!(&node.value, Value::Scalar(scalar) if scalar.text == "auto")
+    is_word(node, "auto")
 }
 
 impl<S: Shape> Shape for AutoOr<S> {

@@ -97,8 +97,8 @@ problems! {
             help "list the vertices in order around the outline";
         Thin = ZERO_AREA "the box is too thin: rounding decides where its faces look"
             help "use a larger extent or a smaller translation, or write a quad";
-        Far = MESH_RANGE "the box is out of range once rotated and moved"
-            help "use smaller corners or a smaller translation";
+        Far = MESH_RANGE "the shape is out of range once it is scaled, rotated and translated"
+            help "use a smaller transform";
         NoVolume { axes: Vec<&'static str> } = ZERO_AREA
             { format!("`max` does not exceed `min` along {}", listed(axes, "and")) }
             label "must exceed `min` in each coordinate"

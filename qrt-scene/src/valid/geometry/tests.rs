@@ -278,3 +278,45 @@ fn normals_are_on_the_side_of_the_front_and_not_along_the_face() {
     assert_eq!(turned, found);
     assert!((found[2] - DVec3::new(-0.9375_f64.sqrt(), 0.0, LEAST_COSINE)).length() < 1e-12);
 }
+
+/// A quarter turn about z, and a factor of 2, keep every coordinate exact.
+#[test]
+fn every_shape_is_scaled_then_turned_then_moved() {
+    let shapes = |geometry: &str| {
+        let text = format!(
+            "name: n\ncamera: {{ perspective: {{ eye: [0, 0, 30], target: [0, 0, 0], vfov: 40 }} }}\n\
+             film: {{ width: 1, height: 1 }}\nsky: {{ radiance: 1 }}\n\
+             materials: {{ m: {{ lambertian: {{ albedo: 0.5 }} }} }}\ngeometry:\n{geometry}"
+        );
+        let parsed = crate::front::parse(&text, "n.yaml", &[], "".as_ref());
+        parsed.unwrap_or_else(|report| panic!("{report}")).valid
+    };
+    let moved = "scale: 2, rotate: [0, 0, 90], translate: [1, 2, 3], material: m }\n";
+    let written = shapes(&format!(
+        "- quad: {{ vertices: [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 1]], {moved}\
+         - triangle: {{ vertices: [[5, 0, 0], [6, 0, 0], [5, 1, 0]], {moved}\
+         - sphere: {{ center: [1, 2, 3], radius: 0.5, {moved}\
+         - box: {{ min: [0, 0, 5], max: [1, 2, 6], {moved}"
+    ));
+    let expected = shapes(
+        "- quad: { vertices: [[1, 2, 3], [1, 6, 3], [-1, 6, 3], [-1, 2, 5]], material: m }\n\
+         - triangle: { vertices: [[1, 12, 3], [1, 14, 3], [-1, 12, 3]], material: m }\n\
+         - sphere: { center: [-3, 4, 9], radius: 1, material: m }\n\
+         - box: { min: [0, 0, 10], max: [2, 4, 12], rotate: [0, 0, 90], translate: [1, 2, 3], material: m }\n",
+    );
+    let outlines = |valid: &crate::valid::ValidScene| -> Vec<Vec<DVec3>> {
+        let polygons = valid.polygons.iter();
+        polygons.map(|polygon| polygon.outline().to_vec()).collect()
+    };
+    assert_eq!(outlines(&written), outlines(&expected));
+    let balls = |valid: &crate::valid::ValidScene| {
+        let [ball] = valid.balls[..] else {
+            panic!("{} spheres", valid.balls.len());
+        };
+        (ball.centre, ball.radius)
+    };
+    assert_eq!(balls(&written), balls(&expected));
+    let again = written.scene().to_string();
+    let again = crate::front::parse(&again, "again.yaml", &[], "".as_ref()).unwrap();
+    assert_eq!(again.valid.scene(), written.scene());
+}

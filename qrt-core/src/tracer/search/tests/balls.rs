@@ -103,7 +103,7 @@ fn random_scene(chance: &mut Chance) -> Stage<3> {
     writeln!(
         text,
         "camera: {{ perspective: {{ eye: {eye:?}, target: [0.1, 1.2, -3], vfov: 30 }} }}\n\
-         sampling: {{ depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}] }}"
+         sampling: {{ depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4] }}], lights: none }}"
     )
     .unwrap();
     staged(&text)
