@@ -5,6 +5,8 @@ use super::failure::Failure;
 use super::files::Output;
 use super::memory::{self, refused};
 use super::picture::{self, BesideArgs, Outputs};
+use super::render::{is_black, note_black};
+use super::terminal;
 use clap::Args;
 use qrt_runtime::disk::read_regular;
 use qrt_runtime::image::Encoding;
@@ -83,6 +85,13 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     let clipped = picture::write(&outputs, encoding, &rendered, &layers)?;
     if args.quiet {
         return Ok(());
+    }
+    match &scene {
+        Some(loaded) => note_black(&rendered, &loaded.valid, 0),
+        None if is_black(&rendered) => terminal::note(
+            "the picture is black: `qrt render` says why, for a picture that is not divided into portions",
+        ),
+        None => {}
     }
     outputs.tell(&picture::summary(&args.output, &rendered, clipped))
 }

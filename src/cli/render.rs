@@ -435,13 +435,18 @@ fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>
     ));
 }
 
+/// True if every colour is 0.
+pub(super) fn is_black(rendered: &Rendered) -> bool {
+    rendered.image.pixels.iter().flatten().all(|&c| c == 0.0)
+}
+
 /// Tells why a picture is black: no path leads to a lamp, or no colour reaches the comparator's first
 /// threshold.
-fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
+pub(super) fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
     /// Pixels and paths of each that are looked at.
     const PIXELS: usize = 64;
     const PATHS: u64 = 1 << 10;
-    if rendered.image.pixels.iter().flatten().any(|&c| c != 0.0) {
+    if !is_black(rendered) {
         return;
     }
     let Ok(machine) = Real::new(scene, seed) else {
@@ -472,7 +477,7 @@ fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
             terminal::note(&format!(
                 "the picture is black: none of {} paths that were tried has light. Does the camera look \
                  elsewhere, are there too few rays in `sampling.depths`, or is a lamp enclosed, turned away or \
-                 too small to be found without `light`?",
+                 too small to be found under `lights: none`?",
                 grouped(pixels.len() as u64 * paths)
             ));
         }

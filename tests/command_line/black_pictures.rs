@@ -66,7 +66,7 @@ geometry:
   - sphere: { center: [0, 0, 0], radius: 0.5, material: lamp }
   - OTHER
   - quad: { vertices: [[-4, -4, -3], [4, -4, -3], [4, 4, -3], [-4, 4, -3]], material: wall }
-sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6] }] }
+sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6] }], lights: none }
 counting: { phase_bits: 6 }
 ";
     let shut = "box: { min: [-1, -1, -1], max: [1, 1, 1], material: wall }";
@@ -97,6 +97,50 @@ counting: { phase_bits: 6 }
     }
 }
 
+/// A portion may well be black in a picture that is not, so the merge says it.
+#[test]
+fn a_merged_picture_without_light_says_so() {
+    let scene = "name: shut
+camera: { perspective: { eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 } }
+film: { width: 8, height: 8 }
+materials:
+  wall: { lambertian: { albedo: 0.8 } }
+  lamp: { emitter: { radiance: 3 } }
+geometry:
+  - sphere: { center: [0, 0, 0], radius: 0.5, material: lamp }
+  - box: { min: [-1, -1, -1], max: [1, 1, 1], material: wall }
+sampling: { path_bits: 6, depths: 2 }
+counting: { phase_bits: 6 }
+";
+    let folder = Folder::with("shut.yaml", scene);
+    let told = |arguments: &[&str]| {
+        let output = folder.qrt(arguments);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{errors}");
+        errors
+    };
+    for (portion, part) in [("0/2", "0.part"), ("1/2", "1.part")] {
+        let errors = told(&["render", "shut.yaml", "--portion", portion, "-o", part]);
+        assert!(!errors.contains("is black"), "{errors}");
+    }
+    let merged = told(&["merge", "0.part", "1.part", "-o", "a.exr"]);
+    assert!(
+        merged.contains("the picture is black: `qrt render` says why"),
+        "{merged}"
+    );
+    let layers = told(&[
+        "merge",
+        "0.part",
+        "1.part",
+        "-o",
+        "b.exr",
+        "--layers",
+        "shut.yaml",
+    ]);
+    let why = "the picture is black: none of 4,096 paths that were tried has light";
+    assert!(layers.contains(why), "{layers}");
+}
+
 #[test]
 fn a_picture_below_the_first_threshold_says_why_it_is_black() {
     // The weight of nearly smooth metal under the cosine map is bounded by 0.8 / 0.05^4.
@@ -107,7 +151,7 @@ sky: { radiance: 1 }
 materials: { satin: { ggx: { alpha: 0.05, reflectance: 0.8 } } }
 geometry:
   - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: satin }
-sampling: { path_bits: 12, depths: [{ bits: [4, 4] }, { bits: [8, 8], map: cosine-hemisphere }] }
+sampling: { path_bits: 12, depths: [{ bits: [4, 4] }, { bits: [8, 8], map: cosine-hemisphere }], lights: none }
 comparator: { bits: 4 }
 ";
     let folder = Folder::with("dim.yaml", scene);
