@@ -43,7 +43,7 @@
 //! geometry:
 //!   - quad: { vertices: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor }
 //!   - quad: { vertices: [[-900, 5, -900], [900, 5, -900], [900, 5, 900], [-900, 5, 900]], material: sky }
-//! sampling: { path_bits: 8, depths: [{ bits: [8, 8] }, { bits: [8, 8] }] }
+//! sampling: { path_bits: 8, depths: [{ bits: [8, 8] }, { bits: [8, 8] }], lights: none }
 //! ";
 //! // All errors of a scene are reported at once, with their places.
 //! let scene = parse(text, "lit-floor.yaml", &[], "".as_ref())?.valid;
@@ -87,6 +87,11 @@
 //!   [`examples/one_pixel.rs`](https://github.com/qrt-rs/qrt/blob/main/examples/one_pixel.rs).
 
 #![forbid(unsafe_code)]
+
+/// Tests the README's examples.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 /// Points and directions: the vectors that scenes are written with, in the version that qrt uses.
 ///
