@@ -20,6 +20,7 @@ mod formula;
 mod html;
 mod interactive;
 mod log;
+mod pdf;
 mod preprocessor;
 mod serve;
 mod source;
@@ -46,6 +47,7 @@ Usage: cargo book [COMMAND] [--draft]
   build               builds the book into book/book and checks it (the default)
   check               checks the book that is built: links, other hosts, sizes
   serve [PORT]        builds it and serves it on this machine (port 3000)
+  pdf [FILE]          prints all of it to one PDF (book/qrt-book.pdf), with Chromium
   preprocess          speaks mdBook's protocol, for `mdbook build book`
 
   --draft             chapters may be missing, and what is wrong is said but is no failure
@@ -94,6 +96,8 @@ fn run(mut arguments: Vec<String>) -> Result<bool> {
             Ok(port) => serve(&book()?, draft, port),
             Err(_) => bail!(Usage(format!("`{port}` is no port: from 0 to 65535"))),
         },
+        ["pdf"] => pdf::print(&book()?, draft, None),
+        ["pdf", file] => pdf::print(&book()?, draft, Some(Path::new(file))),
         ["preprocess"] => preprocess(draft),
         ["preprocess", "supports", renderer] => QrtBook::default().supports_renderer(renderer),
         ["help" | "--help" | "-h"] => {
@@ -119,20 +123,33 @@ fn book() -> Result<PathBuf> {
 /// Builds the book, and checks it.
 fn build(root: &Path, draft: bool) -> Result<bool> {
     let started = Instant::now();
+    let complaints = rendered(root, &QrtBook::new(draft), |_| Ok(()))?;
+    let well = checked(root, draft, complaints)?;
+    println!(
+        "{} in {:.1} s",
+        root.join("book/index.html").display(),
+        started.elapsed().as_secs_f64()
+    );
+    Ok(well)
+}
+
+/// Renders the book by mdBook, with changes of its configuration; returns all complaints.
+fn rendered(
+    root: &Path,
+    ours: &QrtBook,
+    change: impl FnOnce(&mut Config) -> Result<()>,
+) -> Result<Vec<Complaint>> {
     let log = Log::default();
     // No other subscriber is set in this process.
     let _ = tracing::subscriber::set_global_default(log.clone());
     let file = root.join("book.toml");
-    let config =
+    let mut config =
         Config::from_disk(&file).with_context(|| format!("cannot read {}", file.display()))?;
+    change(&mut config)?;
     let src = root.join(&config.book.src);
-    let ours = QrtBook {
-        draft,
-        ..QrtBook::default()
-    };
     // The preprocessor runs in this process instead, after all others.
     let config = without(&config, ours.name())?;
-    let mut book = if draft {
+    let mut book = if ours.draft {
         let mut summary = summary(&src)?;
         leave_out_missing(&mut summary, &src);
         MDBook::load_with_config_and_summary(root, config, summary)?
@@ -143,13 +160,7 @@ fn build(root: &Path, draft: bool) -> Result<bool> {
     book.build()?;
     let mut complaints = ours.complaints.take();
     complaints.extend(log.complaints(&src, "book/src")?);
-    let well = checked(root, draft, complaints)?;
-    println!(
-        "{} in {:.1} s",
-        root.join("book/index.html").display(),
-        started.elapsed().as_secs_f64()
-    );
-    Ok(well)
+    Ok(complaints)
 }
 
 /// Returns the book's configuration without the preprocessor `preprocessor`.
@@ -231,10 +242,7 @@ fn preprocess(draft: bool) -> Result<bool> {
         // The path is relative to mdBook's working folder, but mdBook runs this tool in the book's folder.
         context.root = std::env::current_dir()?;
     }
-    let ours = QrtBook {
-        draft,
-        ..QrtBook::default()
-    };
+    let ours = QrtBook::new(draft);
     let book = ours.run(&context, book)?;
     let complaints = ours.complaints.take();
     for complaint in &complaints {
@@ -256,6 +264,7 @@ mod tests {
             &["--drafty"],
             &["serve", "door"],
             &["serve", "65536"],
+            &["pdf", "a.pdf", "b.pdf"],
         ] {
             let result = run(wrong.iter().copied().map(str::to_owned).collect());
             assert_eq!(status(&result), 2, "{wrong:?}");

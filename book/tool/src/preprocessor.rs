@@ -23,8 +23,20 @@ const INDEX: &str = "{{#equations}}";
 pub(crate) struct QrtBook {
     /// True while chapters are still being written: equations may be missing.
     pub(crate) draft: bool,
+    /// True if the book is printed: figures are still pictures, and a cover comes first.
+    pub(crate) paper: bool,
     /// Complaints about the chapters, once they have been processed.
     pub(crate) complaints: Rc<RefCell<Vec<Complaint>>>,
+}
+
+impl QrtBook {
+    /// Creates the preprocessor of the book as pages for a browser.
+    pub(crate) fn new(draft: bool) -> Self {
+        Self {
+            draft,
+            ..Self::default()
+        }
+    }
 }
 
 impl Preprocessor for QrtBook {
@@ -46,7 +58,8 @@ impl Preprocessor for QrtBook {
             figures: Figures::default(),
             complaints: Vec::new(),
         };
-        let assets = interactive::prepare(&context.root, &src, &mut workshop.complaints)?;
+        let assets =
+            !self.paper && interactive::prepare(&context.root, &src, &mut workshop.complaints)?;
 
         let mut equations: BTreeMap<u32, Indexed> = BTreeMap::new();
         let mut indices = Vec::new();
@@ -110,6 +123,10 @@ impl Preprocessor for QrtBook {
             }
         });
 
+        if self.paper {
+            let cover = crate::pdf::cover(&context.config.book, &book);
+            book.items.insert(0, BookItem::Chapter(cover));
+        }
         workshop.sources.write(&src.join("source"))?;
         workshop.formulas.save()?;
         workshop.complaints.sort();
@@ -183,10 +200,7 @@ mod tests {
         std::fs::write(root.path().join("x.rs"), "fn x() {}\n").unwrap();
         std::fs::write(book.join("src/SUMMARY.md"), "- [X](x.md)\n").unwrap();
         std::fs::write(book.join("src/x.md"), chapter).unwrap();
-        let ours = QrtBook {
-            draft,
-            ..QrtBook::default()
-        };
+        let ours = QrtBook::new(draft);
         let mut whole = mdbook_driver::MDBook::load_with_config(&book, Config::default()).unwrap();
         whole.with_preprocessor(ours.clone());
         whole.build().unwrap();

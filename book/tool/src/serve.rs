@@ -10,6 +10,12 @@ use std::path::{Component, Path};
 pub(crate) fn serve(folder: &Path, port: u16) -> Result<()> {
     let listener = listen(port)?;
     println!("http://{}/ (Ctrl-C ends it)", listener.local_addr()?);
+    answer_all(&listener, folder);
+    Ok(())
+}
+
+/// Answers all requests for files of a folder, each in a thread of its own, until the process ends.
+pub(crate) fn answer_all(listener: &TcpListener, folder: &Path) {
     // A failed connection does not stop the server.
     for stream in listener.incoming().flatten() {
         let folder = folder.to_owned();
@@ -17,10 +23,10 @@ pub(crate) fn serve(folder: &Path, port: u16) -> Result<()> {
             let _ = answer(&stream, &folder);
         });
     }
-    Ok(())
 }
 
-fn listen(port: u16) -> Result<TcpListener> {
+/// Opens a port of this machine; 0 is any free one.
+pub(crate) fn listen(port: u16) -> Result<TcpListener> {
     TcpListener::bind(("127.0.0.1", port)).map_err(|error| {
         let what = match error.kind() {
             ErrorKind::AddrInUse => {
