@@ -59,6 +59,7 @@ pages! {
     errata = "errata.md",
     related_work = "related-work.md",
     glossary = "glossary.md",
+    summary_card = "summary.md",
 }
 
 /// The program that the chapter "One pixel, from nothing" builds.

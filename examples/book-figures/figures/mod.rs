@@ -15,6 +15,7 @@ pub(crate) mod pictures;
 mod pixel;
 mod plates;
 mod points;
+mod poster;
 
 use qrt::drawing::Canvas;
 use qrt::runtime::image::{Encoding, Image, Metadata, save};
@@ -62,7 +63,7 @@ impl Figure {
 pub(crate) type Make = fn() -> Figure;
 
 /// All figures, by the names of their files.
-pub(crate) const ALL: [(&str, Make); 47] = [
+pub(crate) const ALL: [(&str, Make); 48] = [
     ("first-picture.png", pictures::first),
     ("noise-strip.png", pictures::noise),
     ("counted-strip.png", pictures::counted),
@@ -82,6 +83,7 @@ pub(crate) const ALL: [(&str, Make); 47] = [
     ("furnace.svg", furnace::depths),
     ("oracle-call.svg", call::animated),
     ("counting-ends.svg", counting::ends),
+    ("poster.svg", poster::poster),
     ("pixel-paths.svg", pixel::paths),
     ("pixel-oracle.svg", pixel::oracle),
     ("pixel-indices.svg", pixel::indices),
