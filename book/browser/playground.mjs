@@ -4,6 +4,10 @@ import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { PHONE, THEMES, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
+import { faint } from "./figures.mjs";
+import { barriers, misfits } from "./pages.mjs";
+import { QRT, SCREENSHOTS, check, checkAll, fail, qrt, root } from "./report.mjs";
 
 /** Milliseconds from the page to the first picture of the Cornell box, and from a key to its underline. */
 const FIRST_PICTURE = 3000;
@@ -32,28 +36,32 @@ class Playground {
   }
 
   replace(text) {
-    return this.page.call((selector, text) => {
+    return this.page.evaluate((selector, text) => {
       const view = document.querySelector(selector).qrtEditor;
       view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } });
     }, SELECTOR, text);
   }
 
   text() {
-    return this.page.call((selector) => document.querySelector(selector).qrtEditor.state.doc.toString(), SELECTOR);
+    return this.page.evaluate((selector) => document.querySelector(selector).qrtEditor.state.doc.toString(), SELECTOR);
   }
 
   ready() {
-    return this.page.until((s) => ["ready", "static"].includes(document.querySelector(s).dataset.state), [SELECTOR]);
+    return until(this.page, (s) => ["ready", "static"].includes(document.querySelector(s).dataset.state), [SELECTOR]);
   }
 
   /** Until the picture is traced and counted, or the scene is wrong. */
   idle() {
-    return this.page.until((s) => !document.querySelector(s).dataset.busy, [SELECTOR], 120_000);
+    return until(this.page, (s) => !document.querySelector(s).dataset.busy, [SELECTOR], 120_000);
+  }
+
+  controls() {
+    return this.page.evaluate((s) => Object.fromEntries([...document.querySelectorAll(`${s} [name]`)].map((input) => [input.name, input.value])), SELECTOR);
   }
 
   /** Chooses the arithmetic. */
   async arithmetic(model) {
-    await this.page.call((s, model) => {
+    await this.page.evaluate((s, model) => {
       const choice = document.querySelector(`${s} [name=model]`);
       choice.value = model;
       choice.dispatchEvent(new Event("input"));
@@ -63,7 +71,7 @@ class Playground {
 
   /** The first line that the editor shows as a whole. */
   top() {
-    return this.page.call((selector) => {
+    return this.page.evaluate((selector) => {
       const view = document.querySelector(selector).qrtEditor;
       const { top } = view.scrollDOM.getBoundingClientRect();
       const line = view.lineBlockAtHeight(top - view.documentTop + 0.5);
@@ -74,36 +82,35 @@ class Playground {
 
   /** Moves the mouse to a place in the first picture, in parts of its size; presses it there, if so asked. */
   async point(x, y, press = false) {
-    const at = await this.page.call((s, x, y) => {
+    const at = await this.page.evaluate((s, x, y) => {
       const canvas = document.querySelector(`${s} canvas`);
       canvas.scrollIntoView({ block: "center" });
       const box = canvas.getBoundingClientRect();
       return { x: box.x + x * box.width, y: box.y + y * box.height };
     }, SELECTOR, x, y);
-    await this.page.send("Input.dispatchMouseEvent", { type: "mouseMoved", ...at });
-    if (!press) return;
-    for (const type of ["mousePressed", "mouseReleased"]) {
-      await this.page.send("Input.dispatchMouseEvent", { type, ...at, button: "left", clickCount: 1 });
-    }
+    await this.page.mouse.move(at.x, at.y);
+    if (press) await this.page.mouse.click(at.x, at.y);
   }
 
   /** Until that pixel is looked at. */
   looked(x, y) {
-    return this.page.until((s, words) => {
+    return until(this.page, (s, words) => {
       const pixel = document.querySelector(`${s} .qrt-pixel`);
-      return !pixel.dataset.busy && pixel.querySelector("h3")?.textContent === words;
+      return !pixel.dataset.busy && pixel.querySelector("h2")?.textContent === words;
     }, [SELECTOR, `Pixel ${x}, ${y}`]);
   }
 
   read() {
-    return this.page.call((selector) => {
+    return this.page.evaluate((selector) => {
       const figure = document.querySelector(selector);
       const told = {};
       for (const span of figure.querySelectorAll("[data-name]")) told[span.dataset.name] = span.dataset.value;
       const codes = [...figure.querySelectorAll(".qrt-problems li")].map((item) => item.dataset.code);
       const levels = [...figure.querySelectorAll("canvas")].filter((canvas) => canvas.offsetParent).map((canvas) => {
-        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-        return Array.from(data);
+        // From a copy: many readings of the page's own canvas would be a warning on the console.
+        const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(canvas, 0, 0);
+        return Array.from(copy.getImageData(0, 0, canvas.width, canvas.height).data);
       });
       const underlined = [...figure.querySelectorAll(".cm-lintRange")].map((part) => part.textContent);
       return { ...figure.dataset, told, codes, levels, underlined, said: figure.querySelector(".qrt-said")?.textContent };
@@ -112,22 +119,22 @@ class Playground {
 }
 
 /** Changes a colour, and types an error: what is on the page is SMALL. `soon` is how soon that is underlined. */
-async function edits(tried, where, { fail, qrt }, soon) {
+async function edits(tried, where, soon) {
   const { page } = tried;
   // A colour: the picture changes.
   const before = (await tried.read()).levels[0];
-  await page.call((s) => {
+  await page.evaluate((s) => {
     const view = document.querySelector(s).qrtEditor;
     const at = view.state.doc.toString().indexOf("0.8, 0.5, 0.2");
     view.dispatch({ changes: { from: at, to: at + 3, insert: "0.1" } });
   }, SELECTOR);
-  await page.until((s) => document.querySelector(s).dataset.busy, [SELECTOR]);
+  await until(page, (s) => document.querySelector(s).dataset.busy, [SELECTOR]);
   await tried.idle();
   const after = (await tried.read()).levels[0];
   if (before.every((level, k) => level === after[k])) fail(where, "a change of colour changes nothing");
 
   // An error, typed: the word before `albedo`'s colon.
-  await page.call((s) => {
+  await page.evaluate((s) => {
     const view = document.querySelector(s).qrtEditor;
     const at = view.state.doc.toString().indexOf("albedo") + 6;
     view.focus();
@@ -135,8 +142,8 @@ async function edits(tried, where, { fail, qrt }, soon) {
     performance.clearMeasures("qrt-underline");
   }, SELECTOR);
   for (const key of ["x", "y", "z"]) {
-    await page.key(key);
-    await page.value("new Promise((resolve) => setTimeout(resolve, 150))");
+    await page.keyboard.press(key);
+    await page.evaluate("new Promise((resolve) => setTimeout(resolve, 150))");
   }
   await tried.idle();
   const wrong = await tried.read();
@@ -153,41 +160,84 @@ async function edits(tried, where, { fail, qrt }, soon) {
   rmSync(scratch, { recursive: true });
   const codes = [...expected.matchAll(/^error\[(\w+)\]/gm)].map(([, code]) => code);
   if (!codes.length || codes.join() !== wrong.codes.join()) fail(where, `lists ${wrong.codes}, but qrt says ${codes}`);
-  const delays = await page.call(() => performance.getEntriesByName("qrt-underline").map(({ duration }) => duration));
+  const delays = await page.evaluate(() => performance.getEntriesByName("qrt-underline").map(({ duration }) => duration));
   const longest = Math.max(...delays);
   console.log(`${where}: from a key to its underline ${longest.toFixed(0)} ms at most`);
   if (delays.length < 3 || longest > soon) fail(where, `underlines ${delays.length} keys, after ${longest.toFixed(0)} ms at most`);
 }
 
+/** Checks the captions while a picture is made, and the words for the pixel under the pointer. */
+async function words(tried, where) {
+  const { page } = tried;
+  await page.evaluate((s) => {
+    const figure = document.querySelector(s);
+    const canvas = [...figure.querySelectorAll("canvas")].at(-1);
+    const caption = canvas.closest("div").parentElement.querySelector(".qrt-caption");
+    window.qrtCaptions = [];
+    new MutationObserver(() => window.qrtCaptions.push({
+      caption: caption.textContent, label: canvas.ariaLabel, busy: figure.dataset.busy ?? "",
+    })).observe(caption, { childList: true });
+    // Another seed: all of it is counted again.
+    const seed = figure.querySelector("[name=seed]");
+    seed.value = Number(seed.value) + 1;
+    seed.dispatchEvent(new Event("input"));
+  }, SELECTOR);
+  await tried.idle();
+  const said = (await page.evaluate(() => window.qrtCaptions)).filter(({ caption, busy }, k, all) => k === 0 || caption !== all[k - 1].caption || busy !== all[k - 1].busy);
+  const expected = [["counted", "true"], ["counting ...", "true"], ["counted", ""]];
+  const seen = said.map(({ caption, busy }) => [caption, busy]);
+  if (JSON.stringify(seen) !== JSON.stringify(expected)) fail(where, `the counted picture's caption and whether it is made: ${JSON.stringify(seen)}`);
+  for (const { caption, label } of said) if (label !== `the picture, ${caption}`) fail(where, `the picture under "${caption}" is called "${label}"`);
+
+  // Its channel is the one with the most good indices.
+  const scratch = mkdtempSync(join(tmpdir(), "qrt-book-"));
+  const [file, counts] = [join(scratch, "scene.yaml"), join(scratch, "counts.csv")];
+  writeFileSync(file, await tried.text());
+  const { seed } = await tried.controls();
+  qrt("render", file, "-o", join(scratch, "a.png"), "--counts", counts, "--estimator", "exact", "--seed", seed);
+  const rows = readFileSync(counts, "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
+  rmSync(scratch, { recursive: true });
+  const good = rows.filter(([x, y]) => x === "6" && y === "5").map((row) => Number(row[4]));
+  const channel = ["red", "green", "blue"][good.lastIndexOf(Math.max(...good))];
+  // No pixel is kept: the pointer chooses.
+  await page.evaluate((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
+  await page.keyboard.press("Escape");
+  await tried.point(0.51, 0.7);
+  await tried.looked(6, 5);
+  const told = await page.evaluate((s) => document.querySelector(`${s} .qrt-pixel`).innerText, SELECTOR);
+  for (const part of [`good indices, ${channel}`, `shows of ${channel}`]) {
+    if (!told.includes(part)) fail(where, `the pixel's words lack "${part}": ${told}`);
+  }
+}
+
 /** The same page, served by the command. */
-async function served(browser, tools) {
-  const { fail, barriers, command, overflowing, sizes } = tools;
+async function served(browser) {
   const scratch = mkdtempSync(join(tmpdir(), "qrt-book-"));
   writeFileSync(join(scratch, "small.yaml"), SMALL);
-  const child = spawn(command, ["playground", join(scratch, "small.yaml")], { stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(QRT, ["playground", join(scratch, "small.yaml")], { stdio: ["ignore", "pipe", "inherit"] });
   try {
     const line = await new Promise((resolve, reject) => {
       child.stdout.once("data", (data) => resolve(String(data)));
       child.once("exit", () => reject(new Error("qrt playground ended")));
     });
     const address = line.match(/http:\S+/)[0];
-    for (const scheme of ["light", "dark"]) {
-      for (const size of sizes) {
-        const where = `qrt playground, ${scheme} at ${size[0]}`;
-        const page = await browser.page();
-        await page.size(...size);
-        await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
-        await page.visit(address);
+    for (const theme of THEMES) {
+      for (const size of [WIDE, PHONE]) {
+        const where = `qrt playground, ${theme} at ${size.width}`;
+        const page = await tab(browser, size, theme);
+        await visit(page, address);
         const tried = new Playground(page);
         await tried.ready();
-        await page.until(() => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
+        await until(page, () => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
         await tried.idle();
-        await page.until((s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
-        for (const barrier of await barriers(page)) fail(where, barrier);
-        for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
-        await edits(tried, where, tools, UNDERLINE_AGAIN);
-        for (const complaint of new Set(page.complaints)) fail(where, complaint);
-        await page.send("Page.close").catch(() => {});
+        await until(page, (s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
+        for (const misfit of await misfits(page)) fail(where, misfit);
+        if (size === WIDE) {
+          for (const barrier of await barriers(page)) fail(where, barrier);
+          await words(tried, where);
+          await edits(tried, where, UNDERLINE_AGAIN);
+        }
+        await close(tried, where);
       }
     }
   } finally {
@@ -196,49 +246,47 @@ async function served(browser, tools) {
   }
 }
 
-/** Tries all of it on the page `name`; `tools` are those of test.mjs. */
-export async function playground(browser, address, name, tools) {
-  const { fail, check, checkAll, qrt, root, themes, sizes, faint, overflowing, barriers, screenshots } = tools;
+async function close({ page }, where) {
+  for (const fault of page.faults) fail(where, fault);
+  await shut(page);
+}
+
+/** Tries all of it on the page `name`. */
+export async function playground(browser, address, name) {
   const open = async (theme, size, hash) => {
-    const page = await browser.page();
-    await page.size(...size);
-    await page.send("Page.addScriptToEvaluateOnNewDocument", { source: `localStorage.setItem("mdbook-theme", "${theme}");` });
-    await page.visit(`${address}/${name}${hash}`);
-    await page.call((selector) => document.querySelector(selector).scrollIntoView(), SELECTOR);
+    const page = await tab(browser, size, theme);
+    await visit(page, `${address}/${name}${hash}`);
+    await page.evaluate((selector) => document.querySelector(selector).scrollIntoView(), SELECTOR);
     const tried = new Playground(page);
     await tried.ready();
     return tried;
-  };
-  const close = async (tried, where) => {
-    for (const complaint of new Set(tried.page.complaints)) fail(where, complaint);
-    await tried.page.send("Page.close").catch(() => {});
   };
 
   // The first picture, and every example.
   {
     const where = `${name}, examples`;
-    const tried = await open(themes[0], sizes[0], "#example=cornell-box");
-    const first = () => tried.page.call(() => performance.getEntriesByName("qrt-first-picture").map((m) => m.startTime + m.duration));
-    await tried.page.until(() => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
+    const tried = await open(THEMES[0], WIDE, "#example=cornell-box");
+    const first = () => tried.page.evaluate(() => performance.getEntriesByName("qrt-first-picture").map((m) => m.startTime + m.duration));
+    await until(tried.page, () => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
     const [took] = await first();
     console.log(`${where}: the first picture ${took.toFixed(0)} ms after the page was asked for`);
     if (took > FIRST_PICTURE) fail(where, `the first picture comes after ${took.toFixed(0)} ms`);
     // What an example says of itself stands above what is shown.
-    const named = (scene) => tried.page.until((s) => document.querySelector(s).qrtEditor.scrollDOM.scrollTop > 0, [SELECTOR])
+    const named = (scene) => until(tried.page, (s) => document.querySelector(s).qrtEditor.scrollDOM.scrollTop > 0, [SELECTOR])
       .then(() => tried.top(), () => "")
       .then((line) => line.startsWith("name:") || fail(where, `${scene} is shown from "${line}" on`));
     await named("the first example");
     const scenes = readdirSync(join(root, "scenes-yaml")).filter((file) => file.endsWith(".yaml"));
-    const offered = await tried.page.call((s) => [...document.querySelectorAll(`${s} [name=example] option`)].map((o) => o.value), SELECTOR);
+    const offered = await tried.page.evaluate((s) => [...document.querySelectorAll(`${s} [name=example] option`)].map((o) => o.value), SELECTOR);
     check(where, "the number of examples", offered.length, scenes.length);
     for (const scene of offered) {
       const before = (await first()).length;
-      await tried.page.call((s, scene) => {
+      await tried.page.evaluate((s, scene) => {
         const choice = document.querySelector(`${s} [name=example]`);
         choice.value = scene;
         choice.dispatchEvent(new Event("input"));
       }, SELECTOR, scene);
-      await tried.page.until((count) => performance.getEntriesByName("qrt-first-picture").length > count, [before], 120_000)
+      await until(tried.page, (count) => performance.getEntriesByName("qrt-first-picture").length > count, [before], 120_000)
         .catch(() => fail(where, `${scene} makes no picture`));
       const { codes, said, levels, state_of_scene } = await tried.read();
       if (state_of_scene !== "valid" || codes.length) fail(where, `${scene} has problems: ${codes} ${said}`);
@@ -251,7 +299,7 @@ export async function playground(browser, address, name, tools) {
   // Numbers, edits, underlines, pixels, links.
   {
     const where = `${name}, a small scene`;
-    const tried = await open(themes[0], sizes[0], "");
+    const tried = await open(THEMES[0], WIDE, "");
     const { page } = tried;
     const scratch = mkdtempSync(join(tmpdir(), "qrt-book-"));
     const file = join(scratch, "small.yaml");
@@ -262,7 +310,7 @@ export async function playground(browser, address, name, tools) {
       return readFileSync(counts, "utf8").trim().split("\n").slice(1).map((line) => Number(line.split(",")[3]));
     };
     await tried.replace(SMALL);
-    await page.until((s) => document.querySelector(s).dataset.busy, [SELECTOR]);
+    await until(page, (s) => document.querySelector(s).dataset.busy, [SELECTOR]);
     await tried.idle();
     for (const choice of ["real", "fixed", "both"]) {
       await tried.arithmetic(choice);
@@ -291,7 +339,7 @@ export async function playground(browser, address, name, tools) {
       }
     }
     // Its oracle.
-    await page.until((s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
+    await until(page, (s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
     const { told } = await tried.read();
     const inspected = JSON.parse(qrt("inspect", file, "--json"));
     check(where, "Toffolis", told.toffoli, inspected.gates.toffoli);
@@ -303,7 +351,7 @@ export async function playground(browser, address, name, tools) {
     await tried.point(0.01, 0.99, true);
     await tried.looked(0, 7);
     await tried.point(0.51, 0.51);
-    await page.value("new Promise((resolve) => setTimeout(resolve, 200))");
+    await page.evaluate("new Promise((resolve) => setTimeout(resolve, 200))");
     await tried.looked(0, 7).catch(() => fail(where, "the mouse moves from the pixel that was kept"));
     await tried.point(0.99, 0.01, true);
     await tried.looked(11, 0);
@@ -312,76 +360,69 @@ export async function playground(browser, address, name, tools) {
     await tried.looked(6, 4);
 
     // A pixel, by keyboard.
-    await page.call((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
-    await page.key("ArrowDown");
-    await page.until((s) => document.querySelector(`${s} .qrt-pixel h3`)?.textContent === "Pixel 6, 5", [SELECTOR]);
-    await page.until((s) => document.querySelector(`${s} .qrt-pixel [data-name=amplitude]`), [SELECTOR]);
+    await page.evaluate((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
+    await page.keyboard.press("ArrowDown");
+    await until(page, (s) => document.querySelector(`${s} .qrt-pixel h2`)?.textContent === "Pixel 6, 5", [SELECTOR]);
+    await until(page, (s) => document.querySelector(`${s} .qrt-pixel [data-name=amplitude]`), [SELECTOR]);
     const means = (await tried.read()).told;
     const place = 3 * (12 * 5 + 6);
     const exact = rendered("--estimator", "exact");
-    const shown = await page.call((s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`).dataset.value, SELECTOR);
+    const shown = await page.evaluate((s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`).dataset.value, SELECTOR);
     checkAll(where, "channels of a pixel", shown.split(" ").map(Number), exact.slice(place, place + 3), 1e-12);
     check(where, "its amplitude", means.amplitude, means.good / (256 * 2 ** inspected.comparator_bits), 1e-12);
 
     // What the schema suggests where a key is typed: erase it, and ask.
-    await page.call((s) => {
+    await page.evaluate((s) => {
       const view = document.querySelector(s).qrtEditor;
       view.focus();
       view.dispatch({ selection: { anchor: view.state.doc.toString().indexOf("albedo") + 6 } });
     }, SELECTOR);
-    for (let k = 0; k < 6; k++) await page.key("Backspace");
-    await page.send("Input.dispatchKeyEvent", { type: "rawKeyDown", key: " ", code: "Space", windowsVirtualKeyCode: 32, modifiers: 2 });
-    await page.send("Input.dispatchKeyEvent", { type: "keyUp", key: " ", code: "Space", windowsVirtualKeyCode: 32, modifiers: 2 });
-    await page.until(() => document.querySelector(".cm-tooltip-autocomplete li"), []).catch(() => fail(where, "nothing is suggested"));
-    const suggested = await page.call(() => [...document.querySelectorAll(".cm-tooltip-autocomplete .cm-completionLabel")].map((e) => e.textContent));
+    for (let k = 0; k < 6; k++) await page.keyboard.press("Backspace");
+    await page.keyboard.down("Control");
+    await page.keyboard.press("Space");
+    await page.keyboard.up("Control");
+    await until(page, () => document.querySelector(".cm-tooltip-autocomplete li"), []).catch(() => fail(where, "nothing is suggested"));
+    const suggested = await page.evaluate(() => [...document.querySelectorAll(".cm-tooltip-autocomplete .cm-completionLabel")].map((e) => e.textContent));
     if (!suggested.includes("albedo")) fail(where, `suggests ${suggested} in a lambertian material`);
 
     // A link that carries the scene.
     await tried.replace(SMALL);
     await tried.idle();
-    await page.call((s) => document.querySelector(`${s} [name=link]`).click(), SELECTOR);
-    await page.until(() => location.hash.startsWith("#scene="), []);
-    const hash = await page.value("location.hash");
+    await page.evaluate((s) => document.querySelector(`${s} [name=link]`).click(), SELECTOR);
+    await until(page, () => location.hash.startsWith("#scene="), []);
+    const hash = await page.evaluate("location.hash");
     await close(tried, where);
-    const again = await open(themes[0], sizes[0], hash);
-    await again.page.until((s, text) => document.querySelector(s).qrtEditor.state.doc.toString() === text, [SELECTOR, SMALL])
+    const again = await open(THEMES[0], WIDE, hash);
+    await until(again.page, (s, text) => document.querySelector(s).qrtEditor.state.doc.toString() === text, [SELECTOR, SMALL])
       .catch(() => fail(where, "the link brings another scene"));
     await close(again, where);
     rmSync(scratch, { recursive: true });
   }
 
-  // In every theme, wide and narrow.
-  for (const theme of themes) {
-    for (const size of sizes) {
-      const where = `${name}, ${theme} at ${size[0]}`;
+  for (const theme of THEMES) {
+    for (const size of [WIDE, PHONE]) {
+      const where = `${name}, ${theme} at ${size.width}`;
       const tried = await open(theme, size, "");
       const { page } = tried;
       await tried.replace(SMALL.replace("albedo", "albdo"));
-      await page.until((s) => document.querySelector(`${s} .qrt-problems li`), [SELECTOR]);
-      for (const words of await faint(page, SELECTOR)) fail(where, words);
+      await until(page, (s) => document.querySelector(`${s} .qrt-problems li`), [SELECTOR]);
+      for (const text of await faint(page, SELECTOR)) fail(where, text);
       await tried.replace(SMALL);
       await tried.idle();
-      await page.call((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
-      await page.key("Enter");
-      await page.until((s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`), [SELECTOR]);
-      await page.until((s) => document.querySelector(`${s} .qrt-stages`), [SELECTOR], 60_000);
-      for (const words of await faint(page, SELECTOR)) fail(where, words);
+      await page.evaluate((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
+      await page.keyboard.press("Enter");
+      await until(page, (s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`), [SELECTOR]);
+      await until(page, (s) => document.querySelector(`${s} .qrt-stages`), [SELECTOR], 60_000);
+      for (const text of await faint(page, SELECTOR)) fail(where, text);
+      for (const misfit of await misfits(page)) fail(where, misfit);
       for (const barrier of await barriers(page)) fail(where, barrier);
-      for (const out of await page.call(overflowing)) fail(where, `sticks out of the page: ${out}`);
-      const unnamed = await page.call((s) => [...document.querySelectorAll(`${s} :is(input, select, button, canvas, progress)`)]
-        .filter((e) => !(e.labels?.length || e.ariaLabel || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80)), SELECTOR);
-      for (const html of unnamed) fail(where, `has no name for who cannot see it: ${html}`);
-      if (screenshots) {
-        const box = await page.call((s) => {
-          const { x, y, width, height } = document.querySelector(s).getBoundingClientRect();
-          return { x: x + scrollX, y: y + scrollY, width, height };
-        }, SELECTOR);
-        await page.picture(join(screenshots, `playground-${theme}-${size[0]}.png`), { ...box, scale: 1 });
+      if (SCREENSHOTS) await screenshot(page, SELECTOR, join(SCREENSHOTS, `playground-${theme}-${size.width}.png`));
+      if (size === WIDE) {
+        if (theme === THEMES[0]) await words(tried, where);
+        await edits(tried, where, theme === THEMES[0] ? UNDERLINE : UNDERLINE_AGAIN);
       }
-      await edits(tried, where, tools, theme === themes[0] && size === sizes[0] ? UNDERLINE : UNDERLINE_AGAIN);
       await close(tried, where);
     }
   }
-  await served(browser, tools);
-  console.log(`${name}: the playground, tried`);
+  await served(browser);
 }

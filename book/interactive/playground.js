@@ -74,13 +74,12 @@ class Picture {
 
   /** Begins anew; what was there stays to be seen until it is painted over. */
   begin(width, height) {
-    if (this.canvas.width !== width || this.canvas.height !== height) {
+    if (!this.pixels || this.canvas.width !== width || this.canvas.height !== height) {
       Object.assign(this.canvas, { width, height });
-      this.context = null;
+      this.context = this.canvas.getContext("2d");
+      this.pixels = this.context.createImageData(width, height);
     }
     this.radiance = new Float64Array(3 * width * height);
-    this.context ??= this.canvas.getContext("2d");
-    this.pixels = this.context.getImageData(0, 0, width, height);
   }
 
   put(pixel, colours, at) {
@@ -101,11 +100,6 @@ class Picture {
     for (let k = 0; k < this.radiance.length; k++) {
       this.pixels.data[4 * Math.floor(k / 3) + (k % 3)] = level(exposure * this.radiance[k]);
     }
-    this.show();
-  }
-
-  clear() {
-    this.pixels.data.fill(0);
     this.show();
   }
 }
@@ -495,7 +489,7 @@ export async function start(body, figure) {
     cost.dataset.busy = "true";
     await sleep(COST_REST);
     if (mine !== text) return;
-    cost.replaceChildren(element("h3", {}, "The oracle"), element("p", {}, "compiling its circuit ..."));
+    cost.replaceChildren(element("h2", {}, "The oracle"), element("p", {}, "compiling its circuit ..."));
     let answer;
     try {
       answer = await reckoner.call("cost", [], mine);
@@ -505,7 +499,7 @@ export async function start(body, figure) {
     }
     if (mine !== text) return;
     delete cost.dataset.busy;
-    const title = element("h3", {}, "The oracle");
+    const title = element("h2", {}, "The oracle");
     if (answer.error) return void cost.replaceChildren(title, element("p", {}, answer.error));
     const rows = [
       ["toffoli", "Toffolis of a call", answer.toffoli], ["qubits", "qubits", answer.qubits],
@@ -550,7 +544,7 @@ export async function start(body, figure) {
   /** The paths of a pixel. */
   async function paths(x, y) {
     const mine = valid;
-    const title = element("h3", {}, `Pixel ${x}, ${y}`);
+    const title = element("h2", {}, `Pixel ${x}, ${y}`);
     if (!pixelTold.firstChild) {
       pixelTold.append(title);
       pixelDrawn.append(element("p", {}, "tracing its paths ..."));

@@ -132,11 +132,11 @@ fn page(path: &str, file: &File) -> String {
         );
     }
     // `tabindex` lets a reader scroll long lines by keyboard, too.
-    page.push_str(".</p></header>\n<pre tabindex=\"0\">");
+    page.push_str(".</p></header>\n<main><pre tabindex=\"0\">");
     for (index, line) in file.text.lines().enumerate() {
         let _ = writeln!(page, "<b id=L{}></b>{}", index + 1, escaped(line));
     }
-    page.push_str("</pre>\n</body>\n</html>\n");
+    page.push_str("</pre></main>\n</body>\n</html>\n");
     page
 }
 
