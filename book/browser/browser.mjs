@@ -11,6 +11,8 @@ export const PHONE = { ...NARROW, isMobile: true, hasTouch: true, deviceScaleFac
 export const SHEET = { width: 665, height: 970 };
 /** A light theme and a dark one. */
 export const THEMES = ["light", "navy"];
+/** Forms in which figures are tried: their layout does not depend on the theme, nor their colours on the size. */
+export const FORMS = [[THEMES[0], WIDE], [THEMES[1], PHONE]];
 
 /** Starts the browser. Its sandbox does not work for the superuser, who runs tests in containers. */
 export function launch(executablePath) {

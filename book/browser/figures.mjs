@@ -7,7 +7,7 @@
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { PHONE, THEMES, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
+import { FORMS, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
 import { barriers, misfits } from "./pages.mjs";
 import { SCREENSHOTS, check, checkAll, fail, folder, qrt } from "./report.mjs";
 
@@ -123,13 +123,15 @@ class Figure {
     return true;
   }
 
-  /** Tries the figure: its contrast and its layout; if `keys`, its controls; if `numbers`, its numbers. */
-  async tried(keys, numbers) {
+  /** Tries the figure: its contrast and its layout; if `thoroughly`, its controls by keyboard, and its numbers. */
+  async tried(thoroughly) {
     const { page, selector, name, where } = this;
     if (SCREENSHOTS) await screenshot(page, selector, join(SCREENSHOTS, `${where.replaceAll(/[^\w.-]+/g, "-")}.png`));
     for (const text of await faint(page, selector)) fail(where, text);
-    if (keys) await this.byKeyboard();
-    if (keys && numbers) await NUMBERS[name]?.(this);
+    if (thoroughly) {
+      await this.byKeyboard();
+      await NUMBERS[name]?.(this);
+    }
     for (const misfit of await misfits(page)) fail(where, misfit);
   }
 }
@@ -206,7 +208,8 @@ const NUMBERS = {
     // What is wrong with a map of one's own, in the words that the command has for it.
     const own = ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*w)", "sqrt(1-u)"];
     for (const [k, name] of ["x", "y", "z"].entries()) await figure.set(name, own[k]);
-    const said = await until(figure.page, (s) => document.querySelector(`${s} .qrt-wrong:not([hidden])`)?.textContent, [figure.selector]);
+    const said = await until(figure.page, (s) => document.querySelector(`${s} .qrt-wrong:not([hidden])`)?.textContent, [figure.selector])
+      .then((text) => text.jsonValue());
     let expected = "";
     try {
       const bsdf = `{ bsdf: { map: [${own.map((text) => `"${text}"`)}], value: ["0"] } }`;
@@ -272,25 +275,22 @@ const NUMBERS = {
 
 /** Tries all figures of the page `name`, light and dark, wide and narrow. */
 export async function figures(browser, address, name) {
-  for (const theme of THEMES) {
-    for (const size of [WIDE, PHONE]) {
-      const page = await tab(browser, size, theme);
-      await page.evaluateOnNewDocument(() => {
-        window.qrtLong = [];
-        new PerformanceObserver((list) => window.qrtLong.push(...list.getEntries())).observe({ type: "longtask" });
-      });
-      await visit(page, `${address}/${name}`);
-      const place = `${theme} at ${size.width}`;
-      const kinds = await page.evaluate(() => [...document.querySelectorAll("figure.qrt-interactive[data-figure]:not([data-figure=playground])")].map((f) => f.dataset.figure));
-      for (const kind of kinds) {
-        const where = `${name}, ${kind}, ${place}`;
-        const figure = new Figure(page, kind, where);
-        if (await figure.starts()) await figure.tried(theme === THEMES[0], size === WIDE);
-      }
-      if (size === WIDE) for (const barrier of await barriers(page)) fail(`${name}, figures, ${place}`, barrier);
-      for (const fault of page.faults) fail(`${name}, ${place}`, fault);
-      await shut(page);
+  for (const [theme, size] of FORMS) {
+    const page = await tab(browser, size, theme);
+    await page.evaluateOnNewDocument(() => {
+      window.qrtLong = [];
+      new PerformanceObserver((list) => window.qrtLong.push(...list.getEntries())).observe({ type: "longtask" });
+    });
+    await visit(page, `${address}/${name}`);
+    const place = `${theme} at ${size.width}`;
+    const kinds = await page.evaluate(() => [...document.querySelectorAll("figure.qrt-interactive[data-figure]:not([data-figure=playground])")].map((f) => f.dataset.figure));
+    for (const kind of kinds) {
+      const figure = new Figure(page, kind, `${name}, ${kind}, ${place}`);
+      if (await figure.starts()) await figure.tried(size === WIDE);
     }
+    for (const barrier of await barriers(page)) fail(`${name}, figures, ${place}`, barrier);
+    for (const fault of page.faults) fail(`${name}, ${place}`, fault);
+    await shut(page);
   }
 }
 

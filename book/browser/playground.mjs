@@ -4,7 +4,7 @@ import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { PHONE, THEMES, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
+import { FORMS, THEMES, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
 import { faint } from "./figures.mjs";
 import { barriers, misfits } from "./pages.mjs";
 import { QRT, SCREENSHOTS, check, checkAll, fail, qrt, root } from "./report.mjs";
@@ -12,8 +12,8 @@ import { QRT, SCREENSHOTS, check, checkAll, fail, qrt, root } from "./report.mjs
 /** Milliseconds from the page to the first picture of the Cornell box, and from a key to its underline. */
 const FIRST_PICTURE = 3000;
 const UNDERLINE = 60;
-/** The same wherever it is tried once more, and where the command answers over HTTP. */
-const UNDERLINE_AGAIN = 250;
+/** From a key to its underline, where the command answers over HTTP. */
+const UNDERLINE_SERVED = 250;
 
 const SELECTOR = 'figure[data-figure="playground"]';
 
@@ -221,24 +221,22 @@ async function served(browser) {
       child.once("exit", () => reject(new Error("qrt playground ended")));
     });
     const address = line.match(/http:\S+/)[0];
-    for (const theme of THEMES) {
-      for (const size of [WIDE, PHONE]) {
-        const where = `qrt playground, ${theme} at ${size.width}`;
-        const page = await tab(browser, size, theme);
-        await visit(page, address);
-        const tried = new Playground(page);
-        await tried.ready();
-        await until(page, () => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
-        await tried.idle();
-        await until(page, (s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
-        for (const misfit of await misfits(page)) fail(where, misfit);
-        if (size === WIDE) {
-          for (const barrier of await barriers(page)) fail(where, barrier);
-          await words(tried, where);
-          await edits(tried, where, UNDERLINE_AGAIN);
-        }
-        await close(tried, where);
+    for (const [theme, size] of FORMS) {
+      const where = `qrt playground, ${theme} at ${size.width}`;
+      const page = await tab(browser, size, theme);
+      await visit(page, address);
+      const tried = new Playground(page);
+      await tried.ready();
+      await until(page, () => performance.getEntriesByName("qrt-first-picture").length > 0, [], 60_000);
+      await tried.idle();
+      await until(page, (s) => document.querySelector(`${s} .qrt-cost [data-name=toffoli]`), [SELECTOR], 60_000);
+      for (const misfit of await misfits(page)) fail(where, misfit);
+      for (const barrier of await barriers(page)) fail(where, barrier);
+      if (size === WIDE) {
+        await words(tried, where);
+        await edits(tried, where, UNDERLINE_SERVED);
       }
+      await close(tried, where);
     }
   } finally {
     child.kill();
@@ -399,30 +397,28 @@ export async function playground(browser, address, name) {
     rmSync(scratch, { recursive: true });
   }
 
-  for (const theme of THEMES) {
-    for (const size of [WIDE, PHONE]) {
-      const where = `${name}, ${theme} at ${size.width}`;
-      const tried = await open(theme, size, "");
-      const { page } = tried;
-      await tried.replace(SMALL.replace("albedo", "albdo"));
-      await until(page, (s) => document.querySelector(`${s} .qrt-problems li`), [SELECTOR]);
-      for (const text of await faint(page, SELECTOR)) fail(where, text);
-      await tried.replace(SMALL);
-      await tried.idle();
-      await page.evaluate((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
-      await page.keyboard.press("Enter");
-      await until(page, (s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`), [SELECTOR]);
-      await until(page, (s) => document.querySelector(`${s} .qrt-stages`), [SELECTOR], 60_000);
-      for (const text of await faint(page, SELECTOR)) fail(where, text);
-      for (const misfit of await misfits(page)) fail(where, misfit);
-      for (const barrier of await barriers(page)) fail(where, barrier);
-      if (SCREENSHOTS) await screenshot(page, SELECTOR, join(SCREENSHOTS, `playground-${theme}-${size.width}.png`));
-      if (size === WIDE) {
-        if (theme === THEMES[0]) await words(tried, where);
-        await edits(tried, where, theme === THEMES[0] ? UNDERLINE : UNDERLINE_AGAIN);
-      }
-      await close(tried, where);
+  for (const [theme, size] of FORMS) {
+    const where = `${name}, ${theme} at ${size.width}`;
+    const tried = await open(theme, size, "");
+    const { page } = tried;
+    await tried.replace(SMALL.replace("albedo", "albdo"));
+    await until(page, (s) => document.querySelector(`${s} .qrt-problems li`), [SELECTOR]);
+    for (const text of await faint(page, SELECTOR)) fail(where, text);
+    await tried.replace(SMALL);
+    await tried.idle();
+    await page.evaluate((s) => document.querySelector(`${s} canvas`).focus(), SELECTOR);
+    await page.keyboard.press("Enter");
+    await until(page, (s) => document.querySelector(`${s} .qrt-pixel [data-name=mean]`), [SELECTOR]);
+    await until(page, (s) => document.querySelector(`${s} .qrt-stages`), [SELECTOR], 60_000);
+    for (const text of await faint(page, SELECTOR)) fail(where, text);
+    for (const misfit of await misfits(page)) fail(where, misfit);
+    for (const barrier of await barriers(page)) fail(where, barrier);
+    if (SCREENSHOTS) await screenshot(page, SELECTOR, join(SCREENSHOTS, `playground-${theme}-${size.width}.png`));
+    if (size === WIDE) {
+      await words(tried, where);
+      await edits(tried, where, UNDERLINE);
     }
+    await close(tried, where);
   }
   await served(browser);
 }

@@ -19,7 +19,9 @@ export async function serve(folder) {
     const path = normalize(decodeURIComponent(pathname.endsWith("/") ? `${pathname}index.html` : pathname));
     try {
       const content = await readFile(join(folder, path));
-      response.writeHead(200, { "Content-Type": KINDS[extname(path)] ?? "application/octet-stream" });
+      const kind = KINDS[extname(path)] ?? "application/octet-stream";
+      // A page's parts are those of the others: style sheets, scripts and fonts.
+      response.writeHead(200, { "Content-Type": kind, "Cache-Control": kind.startsWith("text/html") ? "no-store" : "max-age=600" });
       response.end(content);
     } catch {
       response.writeHead(404).end();

@@ -59,7 +59,7 @@ pub(super) fn scene(canvas: &mut Canvas, scene: &ValidScene, paths: &[Path]) {
         at([middle[0], middle[1], 0.1]),
     );
     canvas.text("small", at([middle[0] - 0.9, middle[1] + 0.1, 3.4]), "eye");
-    for path in paths.iter() {
+    for path in paths {
         if path.good > 0 {
             canvas.line("thin s4", at(path.seen), at(path.lamp));
         } else {
@@ -165,7 +165,7 @@ pub(super) fn call(canvas: &mut Canvas, call: &Inspection, run: &Simulation) {
     ];
     let y = |k: usize| top + 30.0 + 44.0 * k as f64;
     for (k, (name, qubits)) in wires.iter().enumerate() {
-        canvas.line("wire", [left + 64.0, y(k)], [left + WIDTH, y(k)]);
+        canvas.line("wire", [left + 68.0, y(k)], [left + WIDTH, y(k)]);
         canvas.text("small", [left, y(k)], name);
         canvas.text(
             "small soft",
@@ -216,7 +216,7 @@ pub(super) fn counting(canvas: &mut Canvas, run: &Simulation) {
         &format!("{} qubits", run.phase_bits),
     );
     for k in 0..=names.len() {
-        canvas.line("wire", [left + 48.0, y(k)], [left + WIDTH, y(k)]);
+        canvas.line("wire", [left + 54.0, y(k)], [left + WIDTH, y(k)]);
     }
     for (k, name) in names.iter().enumerate() {
         let x = left + 66.0 + 23.0 * k as f64;
