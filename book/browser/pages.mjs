@@ -68,11 +68,10 @@ export async function misfits(page) {
 
 /** Parts of a page on paper that would be cut or stay folded: paper neither scrolls nor unfolds. */
 function lost() {
-  const all = [...document.querySelectorAll("main :is(pre, pre > code, .table-wrapper, table, .formula, .katex-display, figure, img, svg)")];
-  const seen = all.filter((element) => element.getClientRects().length);
+  const shown = (selector) => [...document.querySelectorAll(selector)].filter((element) => element.getClientRects().length);
   const edge = document.documentElement.clientWidth;
-  const wide = seen.filter((element) => element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).overflowX !== "visible");
-  const out = seen.filter((element) => element.getBoundingClientRect().right > edge + 1);
+  const wide = shown("main :is(pre, pre > code, .table-wrapper, .formula)").filter((element) => element.scrollWidth > element.clientWidth + 1);
+  const out = shown("main :is(pre, table, figure, img, svg)").filter((element) => element.getBoundingClientRect().right > edge + 1);
   const folded = [...document.querySelectorAll("main details > :not(summary)")].filter((element) => !element.checkVisibility());
   return [...new Set([...wide, ...out, ...folded])].map((element) => element.outerHTML.slice(0, 100));
 }
