@@ -60,11 +60,13 @@ impl Body {
         let mut record = if let "mesh" | "sphere" | "box" = kind {
             self.reader.record(kind, inner, at)
         } else {
-            let Some(points) = self.points(kind, inner, at) else {
+            let Some(record) = self.outline(kind, inner, at) else {
                 return self.add_primitive(kind, label, faulty(place));
             };
-            let value = Value::Map(vec![entry("vertices", at, points)].into());
-            Node { span: place, value }
+            Node {
+                span: place,
+                ..record
+            }
         };
         if let Value::Map(entries) = &mut record.value {
             Arc::make_mut(entries).extend(material);
@@ -79,8 +81,8 @@ impl Body {
         self.geometry.push(node);
     }
 
-    /// Reads the points of a quad or a triangle.
-    fn points(&mut self, kind: &str, inner: &[Token], at: Span) -> Option<Node> {
+    /// Reads the points of a quad or a triangle, and the keys after them.
+    fn outline(&mut self, kind: &str, inner: &[Token], at: Span) -> Option<Node> {
         if let [key, colon, ..] = inner
             && key.word().is_some()
             && colon.is_sign(':')
@@ -98,13 +100,21 @@ impl Body {
             } else {
                 self.form(
                     place,
-                    format!("a {kind} holds points alone, without keys"),
+                    format!("the points of a {kind} stand first, without a key"),
                     kind,
                 );
             }
             return None;
         }
-        Some(self.reader.points(inner, at))
+        let is_key = |pair: &[Token]| pair[0].word().is_some() && pair[1].is_sign(':');
+        let end = inner.windows(2).position(is_key).unwrap_or(inner.len());
+        let (points, keys) = inner.split_at(end);
+        let points = self.reader.points(points, at);
+        let mut record = self.reader.record(kind, keys, at);
+        if let Value::Map(entries) = &mut record.value {
+            Arc::make_mut(entries).insert(0, entry("vertices", at, points));
+        }
+        Some(record)
     }
 
     pub(super) fn depth(&mut self, first: &Token, rest: &[Token], place: Span) {

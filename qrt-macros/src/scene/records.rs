@@ -16,7 +16,7 @@ impl Reader {
                 self.incomplete.push(place);
                 continue;
             };
-            if let ("mesh" | "sphere" | "box", "material") = (name, key) {
+            if let ("mesh" | "sphere" | "box" | "quad" | "triangle", "material") = (name, key) {
                 let white = place_of(rest).map_or(at, |end| join(at, end));
                 self.faults
                     .add(
@@ -29,6 +29,8 @@ impl Reader {
                         match name {
                             "mesh" => "obj: \"mesh.obj\"",
                             "box" => "min: (-1, 0, -1), max: (1, 2, 1)",
+                            "quad" => "(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)",
+                            "triangle" => "(0, 0, 0), (1, 0, 0), (0, 1, 0)",
                             _ => "center: (0, 1, 0), radius: 1",
                         }
                     ));

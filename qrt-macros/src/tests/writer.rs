@@ -100,13 +100,16 @@ fn primitive(node: &Node) -> Option<String> {
         let value = Value::Map(Arc::new(rest.cloned().collect()));
         record(key, &Node { value, ..*node })?
     } else {
-        let known = |entry: &Entry| matches!(entry.key.as_str(), "vertices" | "material");
-        if !map(node)?.iter().all(known) {
-            return None;
-        }
         let points = list(&node.entry("vertices")?.value)?;
-        let points: Option<Vec<_>> = points.iter().map(|point| value("", "", point)).collect();
-        format!("{{ {} }}", points?.join(", "))
+        let points = points.iter().map(|point| value("", "", point));
+        let keys = map(node)?.iter();
+        let keys = keys.filter(|entry| !matches!(entry.key.as_str(), "vertices" | "material"));
+        let keys = keys.map(|entry| {
+            let written = value(key, &entry.key, &entry.value)?;
+            Some(format!("{}: {written}", entry.key))
+        });
+        let parts: Option<Vec<_>> = points.chain(keys).collect();
+        format!("{{ {} }}", parts?.join(", "))
     };
     Some(format!("{key}{material} {body},\n"))
 }

@@ -38,7 +38,10 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         }
         let sampling = &mut valid.scene.sampling;
         for depth in &mut sampling.depths {
-            depth.light = LightPoint::None;
+            // As if it was not written.
+            if let LightPoint::Bits(_) = depth.light {
+                depth.light = LightPoint::Auto;
+            }
         }
         if sampling.sequence == Sequence::ProductLattice {
             sampling.path_bits = sampling.lattice_bits();
