@@ -87,7 +87,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
         return Ok(());
     }
     match &scene {
-        Some(loaded) => note_black(&rendered, &loaded.valid, 0),
+        Some(loaded) => note_black(&rendered, &loaded.valid),
         None if is_black(&rendered) => terminal::note(
             "the picture is black: `qrt render` says why, for a picture that is not divided into portions",
         ),

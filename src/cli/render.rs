@@ -292,7 +292,7 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
             let (rendered, checkpoint) =
                 rendered.map_err(|error| failure(error, &loaded, &prepared, &options))?;
             if !args.quiet {
-                note_black(&rendered, scene, args.seed);
+                note_black(&rendered, scene);
             }
             let layers = if args.layers {
                 rendered.layers(scene)
@@ -442,14 +442,14 @@ pub(super) fn is_black(rendered: &Rendered) -> bool {
 
 /// Tells why a picture is black: no path leads to a lamp, or no colour reaches the comparator's first
 /// threshold.
-pub(super) fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
+pub(super) fn note_black(rendered: &Rendered, scene: &ValidScene) {
     /// Pixels and paths of each that are looked at.
     const PIXELS: usize = 64;
     const PATHS: u64 = 1 << 10;
     if !is_black(rendered) {
         return;
     }
-    let Ok(machine) = Real::new(scene, seed) else {
+    let Ok(machine) = Real::new(scene, rendered.seed) else {
         return;
     };
     let [left, top, width, height] = rendered.crop;
@@ -477,7 +477,7 @@ pub(super) fn note_black(rendered: &Rendered, scene: &ValidScene, seed: u64) {
             terminal::note(&format!(
                 "the picture is black: none of {} paths that were tried has light. Does the camera look \
                  elsewhere, are there too few rays in `sampling.depths`, or is a lamp enclosed, turned away or \
-                 too small to be found under `lights: none`?",
+                 too small to be found by rays that do not sample it?",
                 grouped(pixels.len() as u64 * paths)
             ));
         }

@@ -83,10 +83,11 @@ impl Body {
 
     /// Reads the points of a quad or a triangle, and the keys after them.
     fn outline(&mut self, kind: &str, inner: &[Token], at: Span) -> Option<Node> {
-        if let [key, colon, ..] = inner
-            && key.word().is_some()
-            && colon.is_sign(':')
-        {
+        let is_key = |pair: &[Token]| pair[0].word().is_some() && pair[1].is_sign(':');
+        let end = inner.windows(2).position(is_key).unwrap_or(inner.len());
+        let (points, keys) = inner.split_at(end);
+        let named = |pair: &&[Token]| is_key(pair) && (end == 0 || pair[0].is_word("vertices"));
+        if let Some([key, colon]) = keys.windows(2).find(named) {
             let place = join(key.place(), colon.place());
             if key.is_word("material") {
                 self.reader
@@ -106,9 +107,6 @@ impl Body {
             }
             return None;
         }
-        let is_key = |pair: &[Token]| pair[0].word().is_some() && pair[1].is_sign(':');
-        let end = inner.windows(2).position(is_key).unwrap_or(inner.len());
-        let (points, keys) = inner.split_at(end);
         let points = self.reader.points(points, at);
         let mut record = self.reader.record(kind, keys, at);
         if let Value::Map(entries) = &mut record.value {

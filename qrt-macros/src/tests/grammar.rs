@@ -147,6 +147,25 @@ fn an_error_hides_no_other_and_draws_none_after_it() {
 }
 
 #[test]
+fn points_stand_first_and_keys_behind_them() {
+    let triangle = |inner: &str| {
+        codes(&format!(
+            "film: 8 x 8, material m: mirror {{ reflectance: rgb(1, 1, 1) }}, triangle: m {{ {inner} }}"
+        ))
+    };
+    let points = "(0, 0, 0), (1, 0, 0), (0, 1, 0)";
+    assert!(triangle(&format!("{points}, scale: 2, translate: (0, 0, 1)")).is_empty());
+    for wrong in [
+        format!("vertices: [{points}]"),
+        format!("scale: 2, {points}"),
+        format!("{points}, vertices: [{points}]"),
+    ] {
+        assert_eq!(triangle(&wrong), ["QRT0705"], "{wrong}");
+    }
+    assert_eq!(triangle(&format!("{points}, material: m")), ["QRT0721"]);
+}
+
+#[test]
 fn loops_tell_each_error_once() {
     let rest = "film: 8x8, for i in 0..1000 {
         triangle: whit { (0, 0, 0), (1, 0, 0), (0, 1, 0) },
