@@ -561,3 +561,52 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], light: 
     let classes = PixelClasses::new(&large);
     assert_eq!(classes.present(), [PixelClass::MayMeetLamp]);
 }
+
+/// Lamps whose factor is far below the last bit of the circuit's numbers: the circuit's picture is that of
+/// real numbers, and no path exceeds its bound.
+#[test]
+fn small_lamps_light_the_circuit_as_they_light_real_numbers() {
+    for radius in [0.001, 0.01, 0.05] {
+        let (low, high) = (-radius, radius);
+        let sphere = format!("sphere: {{ center: [0, 3, 0], radius: {radius}, material: lamp }}");
+        let quad = format!(
+            "quad: {{ vertices: [[{low}, 3, {low}], [{high}, 3, {low}], [{high}, 3, {high}], [{low}, 3, {high}]], \
+             material: lamp }}"
+        );
+        for (lamp, lights) in [
+            (&sphere, "next-event"),
+            (&sphere, "mis"),
+            (&quad, "next-event"),
+            (&quad, "mis"),
+        ] {
+            let text = format!(
+                "name: small
+camera: {{ perspective: {{ eye: [0, 1, 4], target: [0, 0, 0], vfov: 20 }} }}
+film: {{ width: 4, height: 4 }}
+materials:
+  white: {{ lambertian: {{ albedo: 0.75 }} }}
+  lamp: {{ emitter: {{ radiance: [9, 8, 7] }} }}
+geometry:
+  - quad: {{ vertices: [[-3, 0, 3], [3, 0, 3], [3, 0, -2], [-3, 0, -2]], material: white }}
+  - {lamp}
+sampling: {{ path_bits: 6, depths: 2, lights: {lights} }}
+"
+            );
+            let scene = written(&text, &[]);
+            let [real, fixed] = [Model::Real, Model::Fixed].map(|model| {
+                let options = RenderOptions {
+                    model: Some(model),
+                    estimator: Some(Estimator::Exact),
+                    ..RenderOptions::default()
+                };
+                let rendered = render(&scene, &options);
+                let rendered =
+                    rendered.unwrap_or_else(|error| panic!("{lamp} {lights} {model:?}: {error}"));
+                mean(&rendered.image.pixels)
+            });
+            assert!(real > 0.0, "{lamp} {lights}");
+            let off = (fixed / real - 1.0).abs();
+            assert!(off < 0.005, "{lamp} {lights}: {fixed} for {real}");
+        }
+    }
+}

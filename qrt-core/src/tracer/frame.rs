@@ -127,7 +127,9 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         if let Some(emits) = emits {
             cx.enter(TracerPart::Shade(depth));
             let share = departure.as_ref().map(|(lights, departure)| {
-                lights.emission(cx, departure, hit.face, hit.distance, vertex.cos_theta)
+                let (face, distance) = (hit.face, hit.distance);
+                let share = lights.emission(cx, departure, face, distance, vertex.cos_theta);
+                (share, lights.gain())
             });
             let seen = stage.emitters.shade(cx, &vertex, emits, throughput, share);
             colour = vector::add(cx, &colour, &seen);

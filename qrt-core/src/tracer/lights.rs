@@ -102,7 +102,7 @@ impl Lamps {
         let reached = |surface: usize| {
             let all = |lamp: &u32| {
                 let mine = labels().filter(|&label| surface_of[label as usize] as usize == surface);
-                if few {
+                if few && surfaces[surface].samples_lights() {
                     lights::strongest_of(mine.map(face_of), face_of(*lamp))
                 } else {
                     Reached::UNBOUNDED
@@ -152,20 +152,23 @@ pub(crate) struct LightStage<const C: usize> {
     spheres: Option<SphereLamps>,
     /// By lamp: its normal, and the distance of its plane from the origin along the normal.
     pub(super) normals: Vec<[f64; 4]>,
-    /// By lamp: area over probability and pi.
+    /// By lamp: area over probability and pi, times the gain.
     pub(super) areas: Vec<[f64; 1]>,
-    /// By lamp: the radiance of its front.
+    /// By lamp: the radiance of its front, over the gain.
     pub(super) radiance: Vec<[f64; C]>,
     /// By lamp: its surface, and its face.
     surfaces: Vec<u32>,
     faces: Vec<u32>,
+    /// The power of two by which the factors of small lamps are computed larger, so that fixed-point
+    /// numbers have bits for them.
+    gain: f64,
     /// By face: the entry of `areas` if the face is a lamp, else 0.
     area_of_face: Vec<[f64; 1]>,
     pub(super) receivers: Receivers,
     /// By place and lamp: a bound of the factor `F` or `G`.
     factors: Vec<Vec<f64>>,
-    /// The greatest of these for surfaces whose own rays do not count.
-    most: f64,
+    /// The greatest of these for surfaces whose own rays do not count, and for the others, times the gain.
+    most: [f64; 2],
     /// True if a lamp may be nearer than [`NEAR`].
     near: bool,
 }
@@ -302,7 +305,15 @@ impl<const C: usize> LightStage<C> {
             };
             lamps.forms.iter().zip(&areas).map(weighed).collect()
         };
-        let factors = (0..places.len()).map(factor).collect();
+        let factors: Vec<Vec<f64>> = (0..places.len()).map(factor).collect();
+        let samplers = (0..places.len()).filter(|&place| samples[places.surface(place) as usize]);
+        let greatest = samplers.flat_map(|place| &factors[place]);
+        let greatest = greatest.copied().fold(0.0, f64::max);
+        let all_matte = receivers
+            .iter()
+            .all(|r| !r.samples_lights || r.is_projected);
+        let gain = if all_matte { gain(greatest) } else { 1.0 };
+        let most = [most * gain, if gain > 1.0 { greatest * gain } else { 1.0 }];
         let mut lamp_of = Vec::new();
         let mut starts = Vec::new();
         for (lamp, &columns) in (0..).zip(&columns) {
@@ -322,7 +333,7 @@ impl<const C: usize> LightStage<C> {
         };
         let mut area_of_face = vec![[0.0]; surface_of.len()];
         for (&face, &area) in lamps.faces.iter().zip(&areas) {
-            area_of_face[face as usize] = [area];
+            area_of_face[face as usize] = [area * gain];
         }
         let surface_of_lamp = lamps.faces.iter().map(|&face| surface_of[face as usize]);
         let surface_of_lamp: Vec<u32> = surface_of_lamp.collect();
@@ -336,16 +347,17 @@ impl<const C: usize> LightStage<C> {
             places: lamps.shapes.iter().map(place_row).collect(),
             triangles: lamps.shapes.iter().map(is_triangle).collect(),
             normals: lamps.shapes.iter().map(normal_row).collect(),
-            areas: areas.iter().map(|&area| [area]).collect(),
+            areas: areas.iter().map(|&area| [area * gain]).collect(),
             radiance: surface_of_lamp
                 .iter()
-                .map(|&surface| radiance[surface as usize])
+                .map(|&surface| radiance[surface as usize].map(|c| c / gain))
                 .collect(),
             surfaces: surface_of_lamp,
             faces: lamps.faces.clone(),
             area_of_face,
             receivers: Receivers::new(&samples, &weighs, &scatters),
             factors,
+            gain,
             most,
             near,
         })
@@ -383,7 +395,7 @@ impl<const C: usize> LightStage<C> {
             let lamps = self.radiance.iter().zip(&self.factors[place]);
             for (radiance, factor) in lamps {
                 for (bound, radiance) in bound.iter_mut().zip(radiance) {
-                    *bound = f64::max(*bound, radiance * factor);
+                    *bound = f64::max(*bound, radiance * self.gain * factor);
                 }
             }
         }
@@ -436,7 +448,7 @@ impl<const C: usize> LightStage<C> {
         }
     }
 
-    /// `F` of a Lambertian under the cosine map, or `G` if its own rays do not count.
+    /// `F` of a Lambertian under the cosine map, or `G` if its own rays do not count; times the gain.
     #[inline(always)]
     pub(super) fn projected<A: Arith>(
         &self,
@@ -454,15 +466,28 @@ impl<const C: usize> LightStage<C> {
         } else {
             (math!(cx, both * area), math!(cx, square * square))
         };
-        match self.receivers.weighing {
-            Weighing::None => math!(cx, div(share, beside, self.most)),
-            Weighing::All => math!(cx, div(share, beside + share, 1.0)),
-            Weighing::Some => {
-                let weighs = cx.entry(&self.receivers.weighs, surface);
-                let weighs = cx.is(weighs, 1);
-                let most = self.most.max(1.0);
-                math!(cx, div(share, beside + select(weighs, share, 0.0), most))
-            }
+        let [alone, weighed] = self.most;
+        if self.receivers.weighing == Weighing::None {
+            return math!(cx, div(share, beside, alone));
+        }
+        let own = self.without_gain(cx, share);
+        if self.receivers.weighing == Weighing::All {
+            return math!(cx, div(share, beside + own, weighed));
+        }
+        let weighs = cx.entry(&self.receivers.weighs, surface);
+        let weighs = cx.is(weighs, 1);
+        let most = alone.max(weighed);
+        math!(cx, div(share, beside + select(weighs, own, 0.0), most))
+    }
+
+    /// A number that was computed with the gain, without it.
+    #[inline(always)]
+    fn without_gain<A: Arith>(&self, cx: &mut A, value: A::Real) -> A::Real {
+        if self.gain > 1.0 {
+            let shrunk = cx.real(1.0 / self.gain);
+            math!(cx, value * shrunk)
+        } else {
+            value
         }
     }
 
@@ -496,7 +521,13 @@ impl<const C: usize> LightStage<C> {
         }
     }
 
-    /// The factor by which the emission that a ray meets counts: 1 if no lamp was sampled.
+    /// The power of two that [`LightStage::emission`] is larger by.
+    pub(super) fn gain(&self) -> f64 {
+        self.gain
+    }
+
+    /// The factor by which the emission that a ray meets counts, times the gain: the gain if no lamp was
+    /// sampled.
     #[inline(always)]
     pub(super) fn emission<A: Arith>(
         &self,
@@ -507,12 +538,13 @@ impl<const C: usize> LightStage<C> {
         cos_theta: A::Real,
     ) -> A::Real {
         let [area] = cx.rows(&self.area_of_face, face);
-        Self::emission_of(cx, departure, area, distance, cos_theta)
+        self.emission_of(cx, departure, area, distance, cos_theta)
     }
 
-    /// The same factor, for a lamp with this `area` over probability and pi.
+    /// The same factor, for a lamp with this `area` over probability and pi, times the gain.
     #[inline(always)]
     pub(super) fn emission_of<A: Arith>(
+        &self,
         cx: &mut A,
         departure: &Departure<A>,
         area: A::Real,
@@ -521,15 +553,30 @@ impl<const C: usize> LightStage<C> {
     ) -> A::Real {
         let cos = cx.abs(cos_theta);
         let square = math!(cx, distance * distance);
-        let balance = Self::balance(cx, departure.density, [area, cos, square]);
+        let share = math!(cx, departure.density * (area * cos));
+        let own = self.without_gain(cx, share);
+        let most = self.most[1];
+        let balance = math!(cx, div(share, square + own, most));
+        let whole = cx.real(self.gain);
         math!(
             cx,
             select(
                 departure.samples,
                 select(departure.weighs, balance, 0.0),
-                1.0
+                whole
             )
         )
+    }
+}
+
+/// The gain of factors of which `greatest` is the greatest: 1 unless they are small.
+fn gain(greatest: f64) -> f64 {
+    /// The greatest factor of which coarse numbers have enough bits.
+    const LARGE: f64 = 1.0 / 64.0;
+    if greatest > 0.0 && greatest < LARGE {
+        (-greatest.log2()).floor().exp2()
+    } else {
+        1.0
     }
 }
 

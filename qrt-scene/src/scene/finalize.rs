@@ -1,8 +1,6 @@
 //! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
-use super::shape::{
-    Array, Expression, List, PartShape, Shape, Whole, is_auto, is_word, part, whole,
-};
+use super::shape::{Array, Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
 use super::{
     Data, DepthSampling, Jacobian, LightPoint, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence,
     Sky, Square,
@@ -214,18 +212,19 @@ pub(super) struct LightPointShape;
 
 impl LightPointShape {
     const BITS: Array<Whole<u32>, 2> = Array(whole::<u32>(0, 16));
-    const WORDS: [(&'static str, LightPoint); 2] =
-        [("auto", LightPoint::Auto), ("none", LightPoint::None)];
+    const WORDS: &[&str] = &["auto", "none"];
 }
 
 impl Shape for LightPointShape {
     type Value = LightPoint;
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> LightPoint {
-        let word = Self::WORDS.iter().find(|(word, _)| is_word(node, word));
-        word.map_or_else(
-            || LightPoint::Bits(Self::BITS.decode(node, at, problems)),
-            |(_, light)| *light,
-        )
+        if !matches!(node.value, Value::Scalar(_)) {
+            return LightPoint::Bits(Self::BITS.decode(node, at, problems));
+        }
+        match problems.word(node, at, "a point on a lamp", Self::WORDS) {
+            Some(1) => LightPoint::None,
+            _ => LightPoint::Auto,
+        }
     }
     fn fallback(&self) -> LightPoint {
         LightPoint::Auto
@@ -245,7 +244,7 @@ impl Shape for LightPointShape {
     }
     fn schema(&self) -> Data {
         let words = Self::WORDS.iter();
-        let words = words.map(|(word, _)| Data::map([("const", Data::text(*word))]));
+        let words = words.map(|word| Data::map([("const", Data::text(*word))]));
         let shapes = words.chain([Self::BITS.schema()]);
         Data::map([("anyOf", Data::List(shapes.collect()))])
     }

@@ -5,7 +5,7 @@ mod collections;
 mod described;
 
 pub(crate) use collections::{
-    Array, AutoOr, Channels, Colour, List, Maybe, Named, Omitted, is_auto, is_word, point,
+    Array, AutoOr, Channels, Colour, List, Maybe, Named, Omitted, is_auto, point,
 };
 pub(crate) use described::{FieldSchema, one_of, record_schema, variant_schema};
 

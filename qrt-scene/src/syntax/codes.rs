@@ -110,7 +110,7 @@ codes! {
         "List the vertices in order around the outline";
     MESH_ZERO_AREA = "QRT0305", "a mesh whose faces lose their area when it is placed",
         "Use a larger scale or a smaller translation";
-    MESH_RANGE = "QRT0307", "a mesh or a box that its transform takes out of range",
+    MESH_RANGE = "QRT0307", "a shape that its transform takes out of range",
         "Use a smaller scale or translation";
     MESH_TOO_MANY = "QRT0308", "more faces than a scene may have",
         "Use a coarser mesh, or fewer copies of it";

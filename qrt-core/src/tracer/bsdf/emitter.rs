@@ -44,8 +44,8 @@ impl<const C: usize> Emitters<C> {
         members(cx, at, &self.surfaces)
     }
 
-    /// The light of the `members` that reaches the camera, times `share` if there is one; 0 for
-    /// other paths.
+    /// The light of the `members` that reaches the camera, times the `share` if there is one, which is
+    /// larger by a power of two; 0 for other paths.
     #[inline(always)]
     pub(crate) fn shade<A: Arith>(
         &self,
@@ -53,7 +53,7 @@ impl<const C: usize> Emitters<C> {
         at: &Vertex<A>,
         members: A::Bool,
         throughput: Option<[A::Real; C]>,
-        share: Option<A::Real>,
+        share: Option<(A::Real, f64)>,
     ) -> [A::Real; C] {
         let shows = math!(cx, members && at.front && at.alive);
         let radiance = cx.rows(&self.radiance, at.surface);
@@ -62,7 +62,12 @@ impl<const C: usize> Emitters<C> {
             None => radiance,
         };
         let arriving = match share {
-            Some(share) => vector::scale(cx, &arriving, share),
+            Some((share, gain)) if gain > 1.0 => {
+                let shrunk = cx.real(1.0 / gain);
+                let arriving = vector::scale(cx, &arriving, shrunk);
+                vector::scale(cx, &arriving, share)
+            }
+            Some((share, _)) => vector::scale(cx, &arriving, share),
             None => arriving,
         };
         let none = [cx.real(0.0); C];

@@ -273,14 +273,9 @@ where
     }
 }
 
-/// True if `node` is this word.
-pub(crate) fn is_word(node: &Node, word: &str) -> bool {
-    matches!(&node.value, Value::Scalar(scalar) if scalar.text == word)
-}
-
 /// True if `node` is the word `auto`.
 pub(crate) fn is_auto(node: &Node) -> bool {
-    is_word(node, "auto")
+    matches!(&node.value, Value::Scalar(scalar) if scalar.text == "auto")
 }
 
 impl<S: Shape> Shape for AutoOr<S> {

@@ -20,8 +20,12 @@ problems! {
             "the depths are {rays} rays: a path has {most} at most"
             help "use fewer depths";
         FewLightBits { lamps: usize, bits: u32, needed: u32 } = FEW_LIGHT_BITS
-            { format!("{lamps} polygons emit, and {bits} bits choose among {}", 1_u64 << bits) }
-            help "write {needed} bits or more here";
+            { format!("{lamps} faces emit, and {bits} bits choose among {}", 1_u64 << bits) }
+            help { Some(if *needed > 16 {
+                "more than 65,536 lamps cannot be sampled: write `light: none`".to_owned()
+            } else {
+                format!("write {needed} bits or more here")
+            }) };
         LightUnbounded { surface: String } = LIGHT_UNBOUNDED
             "no bound of next-event estimation can be shown: a lamp may touch a surface of `{surface}`"
             help "write `mis`, whose weights never pass 1, or `auto`";

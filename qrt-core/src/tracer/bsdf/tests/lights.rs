@@ -6,7 +6,7 @@ use super::{
     microfacets,
 };
 use crate::tracer::bsdf::Vertex;
-use crate::tracer::lights::{LightStage, Towards};
+use crate::tracer::lights::Towards;
 use crate::tracer::scalar::Scalar;
 use crate::tracer::{PixelClass, Stage};
 use qrt_scene::front::parse;
@@ -92,7 +92,7 @@ fn shares(name: &str, stage: &Stage<3>, value: impl Fn(Direction, Direction) -> 
             let density = scatter.density(cx, SURFACE, &outgoing, &incoming).unwrap();
             let departure = lights.departed(cx, SURFACE, density * PI);
             // The ray's own share, for a lamp of the same area.
-            let own = LightStage::<3>::emission_of(cx, &departure, area, distance, -cos);
+            let own = lights.emission_of(cx, &departure, area, distance, -cos);
             // Per steradian, with the density of points that the area stands for.
             let of_point = distance * distance / (cos * area * PI);
             let whole = value(incoming, outgoing) * incoming[2] / of_point;
