@@ -397,17 +397,22 @@ impl Oracle {
     /// The operations of [`Oracle::flip`], and their order.
     fn flip_steps(&self, channel: usize) -> FlipSteps {
         let count = self.channels[channel].count;
-        if let (0, Operand::Word(word)) = (self.comparator_bits(), count) {
-            // Without a comparator the count is one bit: flip the phase of that bit.
+        if let (0, Operand::Word(word)) = (self.comparator_bits(), count)
+            && word.bits() == 1
+        {
+            // Without a comparator, and with a count of one bit: flip the phase of that bit.
             let bit = Bit::at(word.register, word.offset);
             return FlipSteps {
                 ops: vec![Op::Phase { bit }],
                 order: &[(0, false)],
             };
         }
-        let comparator = Word::unsigned(self.comparator, 0, self.comparator_bits());
+        let comparator = match self.comparator_bits() {
+            0 => Operand::Constant(0),
+            bits => Operand::Word(Word::unsigned(self.comparator, 0, bits)),
+        };
         let less = Op::Less {
-            a: Operand::Word(comparator),
+            a: comparator,
             b: count,
             target: self.flag,
         };

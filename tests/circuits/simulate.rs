@@ -41,28 +41,55 @@ fn small(name: &str, sets: &[&str]) -> ValidScene {
 #[test]
 fn small_scenes_fit_a_simulator_with_the_right_values() {
     for (name, most) in SMALL {
-        let scene = small(name, &[]);
-        for channel in 0..3 {
-            let options = SimulateOptions {
-                channel: Some(channel),
-                ..SimulateOptions::default()
-            };
-            let one = simulate(&Oracles::new(&scene), PIXEL, &options).unwrap();
-            assert_eq!(one.phase_bits, 4);
-            assert!(one.report.qubits <= most, "{name}: {}", one.report.qubits);
-            assert!(one.largest_difference() < 1e-12, "{name}");
-            assert!((one.report.norm - 1.0).abs() < 1e-12);
-            let a = one.amplitude();
-            assert!(a > 0.0 && a < 1.0 && a != 0.5, "{name}: {a}");
-            let inspection =
-                Inspection::of_pixel(&Oracles::new(&scene), Some(channel), PIXEL).unwrap();
-            assert_eq!(inspection.complete_qubits(4, one.window), one.report.qubits);
-            let counts = pixel_counts(&scene, &inspection.oracle, PIXEL);
-            let counts = counts.unwrap().unwrap();
-            assert_eq!((counts.good, counts.total), (one.good, one.total));
-            assert_eq!((counts.differing, counts.agrees_at), (0, None), "{name}");
-        }
+        fits(name, &[], most);
     }
+}
+
+/// Colours that are 0 or the scale need no comparator: the path index alone is in superposition, and half
+/// the states.
+#[test]
+fn colours_that_are_zero_or_the_scale_need_no_comparator() {
+    let none = "comparator.bits=0";
+    for (name, budget, most) in [
+        ("edge", "{ qubits: 14 }", 19),
+        ("mirror", "{}", 22),
+        ("corner", "{}", 22),
+        ("slanted", "{ qubits: 24 }", 28),
+    ] {
+        let amplitude = fits(name, &[none, &format!("budget={budget}")], most);
+        assert_eq!(amplitude, fits(name, &["budget={}"], 64), "{name}");
+    }
+    // All colours of the lit wall are below half of the scale: the count is a constant.
+    let wall = small("lit-wall", &[none]);
+    let one = simulate(&Oracles::new(&wall), PIXEL, &SimulateOptions::default()).unwrap();
+    assert_eq!((one.good, one.total), (0, 16));
+    assert!(one.largest_difference() < 1e-12);
+}
+
+/// Checks the complete circuits of a small scene's channels. Returns the first channel's fraction of good indices.
+fn fits(name: &str, sets: &[&str], most: u32) -> f64 {
+    let scene = small(name, sets);
+    let amplitudes = [0, 1, 2].map(|channel| {
+        let options = SimulateOptions {
+            channel: Some(channel),
+            ..SimulateOptions::default()
+        };
+        let one = simulate(&Oracles::new(&scene), PIXEL, &options).unwrap();
+        assert_eq!(one.phase_bits, 4);
+        assert!(one.report.qubits <= most, "{name}: {}", one.report.qubits);
+        assert!(one.largest_difference() < 1e-12, "{name}");
+        assert!((one.report.norm - 1.0).abs() < 1e-12);
+        let a = one.amplitude();
+        assert!(a > 0.0 && a < 1.0 && a != 0.5, "{name}: {a}");
+        let inspection = Inspection::of_pixel(&Oracles::new(&scene), Some(channel), PIXEL).unwrap();
+        assert_eq!(inspection.complete_qubits(4, one.window), one.report.qubits);
+        let counts = pixel_counts(&scene, &inspection.oracle, PIXEL);
+        let counts = counts.unwrap().unwrap();
+        assert_eq!((counts.good, counts.total), (one.good, one.total));
+        assert_eq!((counts.differing, counts.agrees_at), (0, None), "{name}");
+        a
+    });
+    amplitudes[0]
 }
 
 /// The file's first comment names the qubits.

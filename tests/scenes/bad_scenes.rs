@@ -130,34 +130,64 @@ const ELSEWHERE: [&str; 22] = [
     codes::NO_COUNTERPART,
 ];
 
-/// A scene without a lamp, and one of mirrors alone, give the same picture as without the bits.
-#[test]
-fn lamps_that_cannot_be_sampled_are_warned_of() {
-    let warned = |name: &str, material: &str| {
-        let text = format!(
-            "name: {name}
+/// Returns the warnings of a scene with one lamp, or none if its name is `dark`; no ray samples a lamp.
+fn warned(name: &str, material: &str, sampling: &str) -> String {
+    let text = format!(
+        "name: {name}
 camera: {{ perspective: {{ eye: [0, 0, 1], target: [0, 0, 0], vfov: 45 }} }}
 film: {{ width: 1, height: 1 }}
 materials: {{ m: {material}, lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }} }}
 geometry:
   - quad: {{ vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], material: m }}
   - quad: {{ vertices: [[0, 0, 2], [0, 1, 2], [1, 1, 2], [1, 0, 2]], material: {} }}
-sampling: {{ depths: [{{ bits: [8, 8] }}, {{ bits: [8, 8], light: [8, 8] }}] }}
+sampling: {{ {sampling} }}
 ",
-            if name == "dark" { "m" } else { "lamp" }
-        );
-        let loaded = front::parse(&text, &format!("{name}.yaml"), &[], "".as_ref()).unwrap();
-        assert!(loaded.valid.scene().sampling.light(1).is_none());
-        loaded.warnings().unwrap().render(false)
-    };
-    let dark = warned("dark", "{ lambertian: { albedo: [0.5, 0.5, 0.5] } }");
-    compare(&Path::new(FOLDER).join("unused-light-dark.yaml"), &dark).unwrap();
-    let mirrors = warned("mirrors", "{ mirror: { reflectance: [0.5, 0.5, 0.5] } }");
+        if name == "dark" { "m" } else { "lamp" }
+    );
+    let loaded = front::parse(&text, &format!("{name}.yaml"), &[], "".as_ref()).unwrap();
+    let sampling = &loaded.valid.scene().sampling;
+    assert!((0..sampling.depths.len()).all(|depth| sampling.light(depth).is_none()));
+    let warnings = loaded.warnings();
+    warnings.map_or(String::new(), |report| report.render(false))
+}
+
+/// A scene without a lamp, and one of mirrors alone, give the same picture as without the bits.
+#[test]
+fn lamps_that_cannot_be_sampled_are_warned_of() {
+    let bits = "depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }]";
+    let (matte, mirror) = (
+        "{ lambertian: { albedo: [0.5, 0.5, 0.5] } }",
+        "{ mirror: { reflectance: [0.5, 0.5, 0.5] } }",
+    );
+    let file = |name: &str| Path::new(FOLDER).join(format!("unused-light-{name}.yaml"));
+    compare(&file("dark"), &warned("dark", matte, bits)).unwrap();
+    compare(&file("mirrors"), &warned("mirrors", mirror, bits)).unwrap();
+    // The same without the bits, where `lights` is written.
+    let two = "depths: 2";
+    assert_eq!(warned("mirrors", mirror, two), "");
     compare(
-        &Path::new(FOLDER).join("unused-light-mirrors.yaml"),
-        &mirrors,
+        &file("asked"),
+        &warned("mirrors", mirror, &format!("lights: mis, {two}")),
     )
     .unwrap();
+    for (sampling, cause) in [
+        ("depths: 1", "the primary ray alone leaves no surface"),
+        (
+            "depths: [{ bits: [4, 4] }, { bits: [4, 4] }], sequence: product-lattice",
+            "under `product-lattice` no ray samples a lamp unless its `light` is written",
+        ),
+        (
+            "depths: [{ bits: [8, 8] }, { bits: [8, 8], light: none }]",
+            "each ray says `light: none`",
+        ),
+    ] {
+        assert!(!warned("auto", matte, sampling).contains("QRT0511"));
+        for lights in ["mis", "next-event"] {
+            let text = warned("asked", matte, &format!("lights: {lights}, {sampling}"));
+            let expected = format!("warning[QRT0511]: `lights` changes nothing: {cause}\n");
+            assert!(text.contains(&expected), "{text}");
+        }
+    }
 }
 
 /// Meshes are read without faces that have no area, copies, and statements without a counterpart.

@@ -1,6 +1,7 @@
 //! Parsers of the entries that a scene may have several of: materials, primitives and rays.
 
 use super::body::{Body, Origin};
+use super::records::no_comma;
 use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
 use qrt_scene::syntax::codes;
@@ -106,6 +107,11 @@ impl Body {
                 );
             }
             return None;
+        }
+        if let ([.., last], [key, ..]) = (points, keys)
+            && !last.is_sign(',')
+        {
+            no_comma(key, &mut self.reader.faults);
         }
         let points = self.reader.points(points, at);
         let mut record = self.reader.record(kind, keys, at);

@@ -125,15 +125,7 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
                 && !part[at - 1].is_sign(':')
                 && !(part[at - 1].is_sign('-') && part[..at].iter().all(|t| !t.is_sign(':')))
         }) {
-            let place = part[at].place();
-            let key = part[at].found();
-            faults
-                .add(
-                    codes::MACRO_COMMA,
-                    place,
-                    format!("there is no comma before {key}"),
-                )
-                .help("write `,` between two keys");
+            no_comma(&part[at], faults);
             let (first, rest) = part.split_at(at);
             fields.push(first);
             part = rest;
@@ -150,6 +142,14 @@ fn fields<'t>(tokens: &'t [Token], faults: &mut Faults) -> Vec<&'t [Token]> {
         fields.push(part);
     }
     fields
+}
+
+/// Reports that no comma stands in front of `key`.
+pub(super) fn no_comma(key: &Token, faults: &mut Faults) {
+    let message = format!("there is no comma before {}", key.found());
+    faults
+        .add(codes::MACRO_COMMA, key.place(), message)
+        .help("write `,` in front of each key");
 }
 
 /// Returns the parts between commas; commas between the bars of a map separate nothing.

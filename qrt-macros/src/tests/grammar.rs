@@ -163,6 +163,7 @@ fn points_stand_first_and_keys_behind_them() {
         assert_eq!(triangle(&wrong), ["QRT0705"], "{wrong}");
     }
     assert_eq!(triangle(&format!("{points}, material: m")), ["QRT0721"]);
+    assert_eq!(triangle(&format!("{points} scale: 2")), ["QRT0706"]);
 }
 
 #[test]

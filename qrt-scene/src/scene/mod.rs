@@ -633,8 +633,9 @@ record! {
     /// The comparator register.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Comparator = "the comparator";
-    /// Its qubits, c: a colour is compared with 2^c thresholds; default 10.
-    pub bits: u32 = whole::<u32>(1, 30), or 10;
+    /// Its qubits, c: a colour is compared with 2^c thresholds; default 10. 0 suits colours that are 0
+    /// or the scale.
+    pub bits: u32 = whole::<u32>(0, 30), or 10;
     /// The positions of the comparators, with h = scale / 2^bits.
     pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
 }

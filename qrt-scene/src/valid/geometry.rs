@@ -241,11 +241,15 @@ impl<'a> Build<'a> {
             return Some(points);
         };
         let moved = points.map(|point| transform.apply(point));
-        if moved.iter().all(|&point| is_in_range(point)) {
+        let fault = if !moved.iter().all(|&point| is_in_range(point)) {
+            Fault::Far
+        } else if is_repeated(&moved) && !is_repeated(&points) {
+            Fault::Merged
+        } else {
             return Some(moved);
-        }
+        };
         if !self.problems.touches(path) {
-            self.problems.add(path.clone(), Fault::Far);
+            self.problems.add(path.clone(), fault);
         }
         None
     }
@@ -604,6 +608,11 @@ fn is_planar(vertices: &[DVec3; 4]) -> bool {
     let [_, b, c, d] = unit(vertices);
     let normal = b.cross(c);
     d.dot(normal).abs() <= PLANAR * normal.length()
+}
+
+/// True if two of `points` are one.
+fn is_repeated(points: &[DVec3]) -> bool {
+    (1..points.len()).any(|at| points[..at].contains(&points[at]))
 }
 
 /// True if no coordinate of `point` is larger than those that a scene may have.

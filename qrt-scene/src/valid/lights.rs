@@ -23,6 +23,7 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         // Another problem may be the cause that nothing emits.
         return;
     }
+    let is_asked = sampling.lights != Lights::Auto;
     let depths = Path::root().key("sampling").key("depths");
     let light = |depth: usize| depths.item(depth).key("light");
     let written = (0..sampling.depths.len()).find(|&depth| sampling.light(depth).is_some());
@@ -32,8 +33,9 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
     };
     let (emits, samples) = (any(Surface::emits), any(Surface::samples_lights));
     if !emits || !samples {
-        if let Some(depth) = written.filter(|_| emits) {
-            let unused = Problem::new(light(depth), Fault::NoReceiver);
+        let asked = is_asked.then(|| Path::root().key("sampling").key("lights"));
+        if let Some(place) = written.map(light).or(asked).filter(|_| emits) {
+            let unused = Problem::new(place, Fault::NoReceiver);
             valid.warnings.push(unused);
         }
         let sampling = &mut valid.scene.sampling;
@@ -69,6 +71,12 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         }
     }
     if asked.is_empty() {
+        if is_asked {
+            let cause = no_points(sampling, needed);
+            let place = Path::root().key("sampling").key("lights");
+            let unused = Problem::new(place, Fault::NoPoints { cause });
+            valid.warnings.push(unused);
+        }
         return;
     }
     cut_lamps(valid);
@@ -114,6 +122,19 @@ fn decide(sampling: &mut Sampling, needed: u32) {
                 LightPoint::None
             };
         }
+    }
+}
+
+/// Returns the reason why no ray has a point on a lamp, of which `needed` bits would choose the lamp.
+fn no_points(sampling: &Sampling, needed: u32) -> &'static str {
+    if sampling.depths.len() < 2 {
+        "the primary ray alone leaves no surface"
+    } else if sampling.sequence == Sequence::ProductLattice {
+        "under `product-lattice` no ray samples a lamp unless its `light` is written"
+    } else if needed > MOST_BITS {
+        "more than 65,536 lamps cannot be sampled"
+    } else {
+        "each ray says `light: none`"
     }
 }
 

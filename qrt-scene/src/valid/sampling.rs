@@ -47,10 +47,13 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             let dimensions = 2 * sampling.squares().count();
             let most = MAX_DIMENSIONS;
             if dimensions > most {
-                problems.add(
-                    path.key("depths"),
-                    Fault::TooManyDepths { dimensions, most },
-                );
+                let lit = (0..sampling.depths.len()).any(|depth| sampling.light(depth).is_some());
+                let what = Fault::TooManyDepths {
+                    dimensions,
+                    most,
+                    lit,
+                };
+                problems.add(path.key("depths"), what);
             }
         }
         Sequence::ProductLattice => lattice(sampling, &path, problems),

@@ -13,9 +13,12 @@ problems! {
             help "remove it, or give a perspective camera a `lens`";
         ReflectedLens = NO_LENS "only the primary ray starts on the lens"
             help "remove it; the lens belongs to the first entry";
-        TooManyDepths { dimensions: usize, most: usize } = TOO_MANY_DIMENSIONS
+        TooManyDepths { dimensions: usize, most: usize, lit: bool } = TOO_MANY_DIMENSIONS
             "the depths need {dimensions} dimensions: the net has {most}"
-            help "use fewer depths, or `product-lattice`";
+            help { Some(format!(
+                "use fewer depths, {}or `product-lattice`",
+                if *lit { "`light: none` for some, " } else { "" }
+            )) };
         TooManyRays { rays: usize, most: usize } = TOO_MANY_DIMENSIONS
             "the depths are {rays} rays: a path has {most} at most"
             help "use fewer depths";
@@ -32,6 +35,9 @@ problems! {
         NoReceiver = LIGHT_UNUSED
             "no surface reflects to more than single directions and tells how densely: none can \
              sample a lamp" help "remove it, or write `lights: none`";
+        NoPoints { cause: &'static str } = LIGHT_UNUSED
+            "`lights` changes nothing: {cause}" help "write `light: [8, 8]` for a ray that leaves a \
+             surface, or `lights: none`";
         TooManyIds { path: u32, comparator: u32, most: u32 } = TOO_MANY_IDS
             { format!("{path} path bits and {comparator} comparator bits make 2^{} indices: at most \
                 2^{most} fit", path.saturating_add(*comparator)) }

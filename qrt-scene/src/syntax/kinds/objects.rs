@@ -99,6 +99,9 @@ problems! {
             help "use a larger extent or a smaller translation, or write a quad";
         Far = MESH_RANGE "the shape is out of range once it is scaled, rotated and translated"
             help "use a smaller transform";
+        Merged = MESH_RANGE "rounding makes one point of two vertices once the shape is moved"
+            label "too small for so large a translation"
+            help "use a smaller translation, or a greater shape";
         NoVolume { axes: Vec<&'static str> } = ZERO_AREA
             { format!("`max` does not exceed `min` along {}", listed(axes, "and")) }
             label "must exceed `min` in each coordinate"
