@@ -12,6 +12,7 @@ mod pictures {
     mod boxes_change_nothing;
     mod checkers;
     mod counted_pictures;
+    mod discs;
     mod estimated_brightness;
     mod extremes;
     mod knot_mesh_is_a_closed_tube;

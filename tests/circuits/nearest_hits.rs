@@ -110,6 +110,27 @@ fn faces_are_marked_that_textbook_geometry_says_are_met() {
     marks_what_is_met(&knot, 60, 0.02);
 }
 
+/// Discs along the axes and slanted, among quads.
+const DISCS: &str = "
+name: discs
+camera: { perspective: { eye: [0.3, 0.2, 3], target: [0, 0.1, 0], vfov: 50 } }
+film: { width: 4, height: 4 }
+materials: { grey: { lambertian: { albedo: [0.5, 0.5, 0.5] } } }
+geometry:
+  - disc: { center: [0.2, 0.1, 0], normal: [0, 0, 1], radius: 0.8, material: grey }
+  - quad: { vertices: [[-1, -1, -0.5], [1, -1, -0.5], [1, 1, -0.5], [-1, 1, -0.5]], material: grey }
+  - disc: { center: [0.2, 0.1, -0.4], normal: [1, -2, 2], radius: 0.8, material: grey }
+  - disc: { center: [-0.6, -0.5, 0.4], normal: [-0.3, 0.2, -1], radius: 0.25, material: grey }
+  - disc: { center: [0, -0.7, 0], normal: [0, 1, 0], radius: 0.75, material: grey }
+sampling: { path_bits: 6, depths: [{ bits: [5, 5] }] }
+precision: { fraction: 14 }
+";
+
+#[test]
+fn discs_are_marked_that_textbook_geometry_says_are_met() {
+    marks_what_is_met(&written(DISCS, &[]), 3000, 0.01);
+}
+
 /// One triangle in front of a skewed perspective camera.
 const ONE: &str = "
 name: one

@@ -62,7 +62,15 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
         let sides = [point(numbers, 16), point(numbers, 16)];
         let at = |u: f64, v: f64| [0, 1, 2].map(|k| corner[k] + u * sides[0][k] + v * sides[1][k]);
         let [a, b, c, d] = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
-        let _ = match numbers.below(3) {
+        let _ = match numbers.below(4) {
+            3 => {
+                let radius = (1 + numbers.below(12)) as f64 / 8.0;
+                writeln!(
+                    text,
+                    "  - disc: {{ center: {corner:?}, normal: {:?}, radius: {radius}, material: m{number} }}",
+                    sides[0]
+                )
+            }
             0 => writeln!(
                 text,
                 "  - triangle: {{ vertices: [{a:?}, {b:?}, {c:?}], material: m{number} }}"

@@ -106,10 +106,18 @@ pub(crate) fn meetings(
                 let edge = sub(corners[(k + 1) % corners.len()], corners[k]);
                 dot(sub(point, corners[k]), unit(cross(normal, edge)))
             });
+            let mut margin = margin.fold(f64::INFINITY, f64::min);
+            if polygon.disc {
+                let middle = add([0.0; 3], add(corners[0], corners[2], 1.0), 0.5);
+                let across = sub(corners[1], corners[0]);
+                let radius = 0.5 * dot(across, across).sqrt();
+                let away = sub(point, middle);
+                margin = radius - dot(away, away).sqrt();
+            }
             let main = normal.map(f64::abs).into_iter().fold(0.0, f64::max);
             Meeting {
                 distance: distance * scale,
-                margin: margin.fold(f64::INFINITY, f64::min) * scale,
+                margin: margin * scale,
                 slope: (slope / main).abs(),
                 length: dot(direction, direction).sqrt(),
             }

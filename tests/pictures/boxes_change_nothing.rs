@@ -137,6 +137,46 @@ fn over_spheres() {
     assert_same(&written(&text, &["sky={ horizon: 1, zenith: 2 }"]));
 }
 
+/// Discs of all sizes and directions among triangles, some of them lamps, some on the planes of others.
+#[test]
+fn over_discs() {
+    let mut random = random();
+    let mut text = format!("{HEAD}\n");
+    for number in 0..90 {
+        let mut center = [random(), 0.6 + 0.6 * random(), random()];
+        let mut normal = [random(), random(), random()];
+        if number % 3 == 0 {
+            normal = [0.0, 1.0 - 2.0 * f64::from(number % 2), 0.0];
+            center[1] = 0.25 * f64::from(number % 5);
+        }
+        let radius = 0.02 + 0.2 * random().abs();
+        let material = ["grey", "glass", "satin", "grey", "lamp"][number as usize % 5];
+        let material = if normal[0] == 0.0 && material == "glass" {
+            "grey"
+        } else {
+            material
+        };
+        writeln!(
+            text,
+            "  - disc: {{ center: {center:?}, normal: {normal:?}, radius: {radius}, material: {material} }}"
+        )
+        .unwrap();
+        let [x, y, z] = center;
+        writeln!(
+            text,
+            "  - triangle: {{ vertices: [[{x}, {y}, {z}], [{}, {y}, {z}], [{x}, {}, {}]], material: satin }}",
+            x + 0.1,
+            y + 0.05,
+            z + 0.1
+        )
+        .unwrap();
+    }
+    assert_same(&written(&text, &[]));
+    let depth = "{ bits: [6, 6], light: [6, 6] }";
+    let lit = format!("sampling.depths=[{{ bits: [6, 6] }}, {depth}, {depth}]");
+    assert_same(&written(&text, &[&lit, "sampling.lights=auto"]));
+}
+
 /// Directions of any length, almost or exactly along an axis, from near and from afar, alone or many: the
 /// boxes are of single precision, which holds few of these numbers.
 #[test]

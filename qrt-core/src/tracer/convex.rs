@@ -94,7 +94,8 @@ fn clipped(outline: &[DVec3], outside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
 
 /// The corners of a geometry's faces by number, each once, and the faces at each edge.
 pub(super) struct Edges {
-    /// By place in [`StageGeometry::faces`].
+    /// By place in [`StageGeometry::faces`]; none for a disc, which has no edges: the square around it
+    /// bounds no body and meets no neighbour.
     pub(super) corners: Vec<Vec<u32>>,
     points: Vec<DVec3>,
     /// The faces at each edge, by place.
@@ -110,6 +111,10 @@ impl Edges {
         };
         let mut numbers = HashMap::new();
         for (place, face) in geometry.faces.iter().enumerate() {
+            if face.disc.is_some() {
+                edges.corners.push(Vec::new());
+                continue;
+            }
             let outline = &geometry.corners[face.label as usize];
             let corners: Vec<u32> = outline
                 .iter()

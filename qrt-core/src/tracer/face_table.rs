@@ -6,9 +6,9 @@
 //! crossing of a ray and a plane ([`super::cross`]), and the test that it lies within the edges.
 
 use super::crossing::{AxisPermuted, Crossing, cross};
-use super::geometry::NO_FACE;
-use super::intersect::{Edges, meets};
-use super::polygon::EdgeTest;
+use super::geometry::{Face, NO_FACE, StageGeometry};
+use super::intersect::{DiscNumbers, Edges, meets};
+use super::polygon::{DiscTest, EdgeTest};
 use super::ray::{Hit, NearestSearch, Ray};
 use super::{Arith, Stage};
 use std::cell::Cell;
@@ -25,6 +25,8 @@ pub struct FaceTable {
     /// The form of the plane of each face, and the plane's offset as seen from the viewpoint.
     planes: Vec<[f64; 3]>,
     slots: Vec<Slot>,
+    /// The tests of discs, if there are any.
+    discs: Option<DiscColumns>,
     /// For each face, 1 if primary rays start on its plane and so meet it nowhere, else 0.
     starts_on: Vec<u32>,
     /// The label of each face, and after the last [`NO_FACE`].
@@ -44,6 +46,20 @@ struct Slot {
     high: Vec<[f64; 1]>,
 }
 
+/// The test of each face's circle, as seen from the viewpoint: see [`DiscTest`].
+#[derive(Clone, Debug, PartialEq)]
+struct DiscColumns {
+    /// For each face, 1 if it is a disc, else 0.
+    is: Vec<u32>,
+    /// For each form and face, 1 if the main coordinate is the second of the two, else 0.
+    second: [Vec<u32>; 2],
+    /// For each form and face, the other coefficient; the form's value at the centre; the scale.
+    forms: [Vec<[f64; 3]>; 2],
+    square: Vec<[f64; 1]>,
+    /// The greatest of all scales.
+    most: f64,
+}
+
 impl FaceTable {
     /// The faces that rays of `stage`'s camera may meet.
     pub fn new<const C: usize>(stage: &Stage<C>) -> Self {
@@ -59,6 +75,7 @@ impl FaceTable {
             axes: Vec::new(),
             planes: Vec::new(),
             slots: Vec::new(),
+            discs: DiscColumns::new(geometry, viewpoint),
             starts_on: Vec::new(),
             labels: Vec::new(),
             lacks_spheres: !geometry.balls.is_empty(),
@@ -174,6 +191,10 @@ impl<A: Arith> Edges<A> for Looked<'_, A> {
                 inside = cx.and(inside, below);
             }
         }
+        if let Some(discs) = &self.list.discs {
+            let within = discs.hold(cx, self.face, [first, second]);
+            inside = cx.and(inside, within);
+        }
         inside
     }
 }
@@ -250,6 +271,77 @@ impl Row {
             low: edge_test.low - away,
             high: edge_test.high - away,
         }
+    }
+}
+
+impl DiscColumns {
+    /// The columns of all faces; none if no face is a disc.
+    fn new(geometry: &StageGeometry, viewpoint: [f64; 3]) -> Option<Self> {
+        let mut columns = Self {
+            is: Vec::new(),
+            second: [Vec::new(), Vec::new()],
+            forms: [Vec::new(), Vec::new()],
+            square: Vec::new(),
+            most: 0.0,
+        };
+        for plane in &geometry.planes {
+            let seen = [1, 2].map(|k| viewpoint[(plane.axis + k) % 3]);
+            for face in &geometry.faces[plane.faces.clone()] {
+                columns.push(face, seen);
+            }
+        }
+        columns.is.contains(&1).then_some(columns)
+    }
+
+    fn push(&mut self, face: &Face, seen: [f64; 2]) {
+        let open = DiscTest {
+            centre: [0.0; 2],
+            scale: [0.0; 2],
+            square: 0.0,
+        };
+        let disc = face.disc.as_ref().unwrap_or(&open);
+        for k in 0..2 {
+            let row = face
+                .disc
+                .map_or(Row::OPEN, |_| Row::new(&face.edge_tests[k], seen));
+            let away = if face.disc.is_some() {
+                let [a, b] = face.edge_tests[k].form;
+                a * seen[0] + b * seen[1]
+            } else {
+                0.0
+            };
+            self.second[k].push(row.second);
+            self.forms[k].push([row.slope, disc.centre[k] - away, disc.scale[k]]);
+            self.most = self.most.max(disc.scale[k]);
+        }
+        self.is.push(u32::from(face.disc.is_some()));
+        self.square.push([disc.square]);
+    }
+
+    /// True if face number `face` is no disc, or if the point is within its circle.
+    #[inline(always)]
+    fn hold<A: Arith>(&self, cx: &mut A, face: A::Index, [first, second]: [A::Real; 2]) -> A::Bool {
+        let zero = cx.real(0.0);
+        let [square] = cx.rows(&self.square, face);
+        let mut numbers = DiscNumbers::<A> {
+            centre: [zero; 2],
+            scale: [zero; 2],
+            square,
+            most: self.most,
+        };
+        let values = [0, 1].map(|k| {
+            let swap = cx.entry(&self.second[k], face);
+            let swap = cx.is(swap, 1);
+            let main = cx.select(swap, second, first);
+            let other = cx.select(swap, first, second);
+            let [slope, centre, scale] = cx.rows(&self.forms[k], face);
+            (numbers.centre[k], numbers.scale[k]) = (centre, scale);
+            math!(cx, main + other * slope)
+        });
+        let within = numbers.hold(cx, values);
+        let is = cx.entry(&self.is, face);
+        let is = cx.is(is, 1);
+        math!(cx, within || !is)
     }
 }
 

@@ -6,7 +6,9 @@
 //! origin.
 
 use super::ball::StageBall;
-use super::polygon::{EdgeTest, FaceFrame, Plane, edge_tests, frame, plane_of};
+use super::polygon::{
+    DiscTest, EdgeTest, FaceFrame, Plane, disc_tests, edge_tests, frame, plane_of,
+};
 use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
 use qrt_scene::valid::{Ball, Polygon};
@@ -33,7 +35,8 @@ pub const INWARD: f64 = 1.0 / (1_u64 << 32) as f64;
 /// each ray.
 const MOST_COMPARED: usize = 1 << 24;
 
-/// A convex polygon on a plane: the points that pass all half-plane edge tests.
+/// A convex polygon or a disc on a plane: the points that pass all half-plane edge tests and, for a disc, its
+/// own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// The face's number in the order of the scene.
@@ -48,6 +51,8 @@ pub struct Face {
     /// The half-plane edge tests. Pairs of parallel edges share one: two for a parallelogram, three
     /// for a triangle.
     pub edge_tests: Vec<EdgeTest>,
+    /// The test of a disc, whose square has two edge tests.
+    pub disc: Option<DiscTest>,
 }
 
 impl Face {
@@ -61,7 +66,8 @@ impl Face {
 fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
     fn numbers(face: &Face) -> impl Iterator<Item = f64> {
         let tests = face.edge_tests.iter();
-        tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high])
+        let tests = tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high]);
+        tests.chain(face.disc.iter().map(|disc| disc.square))
     }
     let compare = |a: &Face, b: &Face| {
         let by_numbers = numbers(a).partial_cmp(numbers(b));
@@ -70,7 +76,8 @@ fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     // Copies come one after the other, the first of the scene first.
     order.sort_by(|&a, &b| compare(&faces[a], &faces[b]));
-    let is_copy = |pair: &&[usize]| faces[pair[0]].edge_tests == faces[pair[1]].edge_tests;
+    let outline = |place: usize| (&faces[place].edge_tests, faces[place].disc);
+    let is_copy = |pair: &&[usize]| outline(pair[0]) == outline(pair[1]);
     let copies = order.windows(2).filter(is_copy).map(|pair| pair[1]);
     let copies: HashSet<u32> = copies.map(|copy| faces[copy].label).collect();
     faces.retain(|face| !copies.contains(&face.label));
@@ -94,7 +101,7 @@ pub struct StageGeometry {
     pub frames: Vec<FaceFrame>,
     /// The plane of each face label; for a sphere [`StageBall::number`].
     pub plane_of: Vec<u32>,
-    /// The corners of each polygon's label, 3 or 4.
+    /// The corners of each polygon's label, 3 or 4. Those of a disc are the corners of the square around it.
     pub corners: Vec<Vec<DVec3>>,
     /// The point of the scene that is the stage's origin.
     pub centre: DVec3,
@@ -150,7 +157,13 @@ impl StageGeometry {
                 .collect();
             let frame = frame(&corners);
             let plane = plane_of(&corners, &frame);
-            let edge_tests = edge_tests(&corners, plane.axis, frame.centre, tolerance);
+            let (edge_tests, disc) = if polygon.disc {
+                let (edge_tests, disc) = disc_tests(&corners, plane.axis, tolerance);
+                (edge_tests, Some(disc))
+            } else {
+                let edge_tests = edge_tests(&corners, plane.axis, frame.centre, tolerance);
+                (edge_tests, None)
+            };
             let plane = geometry.find_plane(plane, &mut known, &mut on_plane);
             geometry.frames.push(frame);
             geometry.plane_of.push(plane);
@@ -161,6 +174,7 @@ impl StageGeometry {
                 hides_emitter: false,
                 covers: None,
                 edge_tests,
+                disc,
             });
         }
         geometry.place_balls(balls, emits, on_plane.len());

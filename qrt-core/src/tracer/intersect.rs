@@ -7,7 +7,7 @@
 use super::ball_ray::{BallRay, hides};
 use super::crossing::{AxisPermuted, Crossing, cross, weighted};
 use super::geometry::{Face, NO_FACE, StageGeometry};
-use super::polygon::EdgeTest;
+use super::polygon::{DiscTest, EdgeTest};
 use super::ray::{Hit, NearestSearch, Ray};
 use super::{Arith, TracerPart};
 
@@ -17,11 +17,64 @@ pub(super) fn constants<A: Arith>(cx: &mut A, [a, b]: [f64; 2]) -> [A::Real; 2] 
 }
 
 impl EdgeTest {
+    /// The value of the form at `point`.
+    #[inline(always)]
+    fn value<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Real {
+        let form = constants(cx, self.form);
+        weighted(cx, form, point)
+    }
+
     #[inline(always)]
     fn holds<A: Arith>(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
-        let form = constants(cx, self.form);
-        let value = weighted(cx, form, point);
+        let value = self.value(cx, point);
         cx.inside(self.low, value, self.high)
+    }
+}
+
+/// A disc's test, over numbers of a machine: see [`DiscTest`].
+pub struct DiscNumbers<A: Arith> {
+    /// As [`DiscTest::centre`].
+    pub centre: [A::Real; 2],
+    /// As [`DiscTest::scale`].
+    pub scale: [A::Real; 2],
+    /// As [`DiscTest::square`].
+    pub square: A::Real,
+    /// The greatest of all scales.
+    pub most: f64,
+}
+
+impl<A: Arith> DiscNumbers<A> {
+    /// True if the point at which both forms have these `values` is within the circle. Arbitrary for a
+    /// point outside the square.
+    #[inline(always)]
+    pub fn hold(&self, cx: &mut A, values: [A::Real; 2]) -> A::Bool {
+        // A point may be off by some units in the last place.
+        let most = 1.0 + cx.inward() * self.most;
+        let [u, v] = [0, 1].map(|k| {
+            let away = math!(cx, (values[k] - self.centre[k]) * self.scale[k]);
+            cx.known(away, -most, most)
+        });
+        math!(cx, u * u + v * v <= self.square)
+    }
+}
+
+impl DiscTest {
+    /// True if `point`, which passes the disc's `edge_tests`, is within the circle.
+    #[inline(always)]
+    pub fn holds<A: Arith>(
+        &self,
+        cx: &mut A,
+        edge_tests: &[EdgeTest],
+        point: [A::Real; 2],
+    ) -> A::Bool {
+        let numbers = DiscNumbers {
+            centre: constants(cx, self.centre),
+            scale: constants(cx, self.scale),
+            square: cx.real(self.square),
+            most: self.scale[0].max(self.scale[1]),
+        };
+        let values = [0, 1].map(|k| edge_tests[k].value(cx, point));
+        numbers.hold(cx, values)
     }
 }
 
@@ -57,16 +110,32 @@ pub(super) fn within<A: Arith>(
     }
 }
 
+/// True if `point` passes every half-plane edge test, and the test of the `disc` if there is one.
+#[inline(always)]
+pub(super) fn within_outline<A: Arith>(
+    cx: &mut A,
+    edge_tests: &[EdgeTest],
+    disc: Option<&DiscTest>,
+    point: [A::Real; 2],
+) -> A::Bool {
+    let within = within(cx, edge_tests, point);
+    let Some(disc) = disc else {
+        return within;
+    };
+    let holds = disc.holds(cx, edge_tests, point);
+    cx.and(within, holds)
+}
+
 /// The edges of a face, as a machine holds them: the same for all paths, or looked up.
 pub(crate) trait Edges<A: Arith> {
     /// True if `point` of the face's plane is within all edges.
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool;
 }
 
-impl<A: Arith> Edges<A> for [EdgeTest] {
+impl<A: Arith> Edges<A> for Face {
     #[inline(always)]
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
-        within(cx, self, point)
+        within_outline(cx, &self.edge_tests, self.disc.as_ref(), point)
     }
 }
 
@@ -114,7 +183,7 @@ impl StageGeometry {
         let plane = self.plane_of[face.label as usize] as usize;
         let permuted = AxisPermuted::along(self.planes[plane].axis, ray);
         let crossing = self.cross(cx, plane, &permuted, ray.from);
-        (meets(cx, &crossing, &*face.edge_tests), crossing.distance)
+        (meets(cx, &crossing, face), crossing.distance)
     }
 
     /// True if `hidden` is, or if one of these faces of plane `number` stands between the start of `ray`
@@ -155,7 +224,7 @@ impl StageGeometry {
                 let first = here.start + earlier;
                 hides = math!(cx, hides || ends_here && !below(lamp, first));
             }
-            let meets = meets(cx, &crossing, &*face.edge_tests);
+            let meets = meets(cx, &crossing, face);
             hidden = math!(cx, hidden || meets && hides);
         }
         cx.leave();
@@ -180,7 +249,7 @@ impl StageGeometry {
         cx.enter(TracerPart::Plane(number));
         let crossing = self.cross(cx, number, ray, from);
         for face in faces.filter(|face| !face.emits) {
-            let meets = meets(cx, &crossing, &*face.edge_tests);
+            let meets = meets(cx, &crossing, face);
             hidden = math!(cx, hidden || meets && crossing.distance < emitter);
         }
         cx.leave();
@@ -225,7 +294,7 @@ impl<A: Arith> Running<A> {
     /// Updates the nearest face with `face`, whose plane the ray crosses.
     #[inline(always)]
     fn meet(&mut self, cx: &mut A, face: &Face, crossing: &Crossing<A>) {
-        let meets = meets(cx, crossing, &*face.edge_tests);
+        let meets = meets(cx, crossing, face);
         let hit = math!(cx, meets && crossing.distance < self.distance);
         let label = cx.index(face.label);
         self.distance = cx.select(hit, crossing.distance, self.distance);

@@ -67,7 +67,11 @@ impl Lamps {
         // Numbered as the geometry numbers its emitting faces.
         let polygons = geometry.faces.iter().filter(|face| face.emits);
         let polygons = polygons.map(|face| {
-            let lamp = Lamp::new(&geometry.corners[face.label as usize])?;
+            let corners = &*geometry.corners[face.label as usize];
+            let lamp = match (corners, face.disc) {
+                (&[a, b, c, d], Some(_)) => Lamp::disc([a, b, c, d]),
+                _ => Lamp::new(corners)?,
+            };
             Some((face.label, Shape::Flat(lamp)))
         });
         let balls = geometry.balls.iter().filter(|ball| ball.emitter.is_some());
@@ -144,10 +148,12 @@ pub(crate) struct LightStage<const C: usize> {
     /// By column of the first coordinate: the lamp, and the place along its first edge.
     lamp_of: Vec<u32>,
     along: Sampled,
-    /// By lamp: corner and edges; centre and radius of a sphere.
+    /// By lamp: corner and edges; centre and two radii of a disc; centre of a sphere.
     places: Vec<[f64; 9]>,
     /// By lamp: 1 if it is a triangle, else 0.
     triangles: Vec<u32>,
+    /// The points of lamps that are discs, if there are any.
+    discs: Option<DiscLamps>,
     /// The points of lamps that are spheres, if there are any.
     spheres: Option<SphereLamps>,
     /// By lamp: its normal, and the distance of its plane from the origin along the normal.
@@ -324,6 +330,7 @@ impl<const C: usize> LightStage<C> {
             .shapes
             .iter()
             .any(|shape| matches!(shape, Shape::Round(_)));
+        let has_discs = lamps.shapes.iter().any(is_disc);
         let place = {
             let (lamp_of, columns) = (lamp_of.clone(), columns.clone());
             move |column: u32| {
@@ -343,6 +350,7 @@ impl<const C: usize> LightStage<C> {
             bits,
             lamp_of,
             spheres: has_spheres.then(|| SphereLamps::new(&lamps.shapes, bits, place.clone())),
+            discs: has_discs.then(|| DiscLamps::new(&lamps.shapes, bits, place.clone())),
             along: Sampled::of_index(bits[0], place),
             places: lamps.shapes.iter().map(place_row).collect(),
             triangles: lamps.shapes.iter().map(is_triangle).collect(),
@@ -430,6 +438,9 @@ impl<const C: usize> LightStage<C> {
             let beyond = math!(cx, triangle && 1.0 < first + second);
             first = math!(cx, select(beyond, 1.0 - first, first));
             second = math!(cx, select(beyond, 1.0 - second, second));
+        }
+        if let Some(discs) = &self.discs {
+            [first, second] = discs.place(cx, [u, v], lamp, [first, second]);
         }
         let [x, y, z, ax, ay, az, bx, by, bz] = cx.rows(&self.places, lamp);
         let mut point = vector!(cx, [x, y, z] + [ax, ay, az] * first + [bx, by, bz] * second);
@@ -635,6 +646,67 @@ fn is_triangle(shape: &Shape) -> u32 {
     }
 }
 
+fn is_disc(shape: &Shape) -> bool {
+    matches!(shape, Shape::Flat(lamp) if lamp.disc)
+}
+
+/// The sampling of points on lamps that are discs, uniform by area and one-to-one: the square of the distance
+/// from the centre and the azimuth are uniform. Both coordinates are tables; a concentric map (Shirley & Chiu
+/// 1997) would need a quotient of them.
+#[derive(Clone, Debug)]
+struct DiscLamps {
+    /// By lamp: 1 if it is a disc, else 0.
+    is: Vec<u32>,
+    /// Distance from the centre, in radii.
+    distance: Sampled,
+    /// Cosine and sine of the azimuth.
+    azimuth: [Sampled; 2],
+}
+
+impl DiscLamps {
+    /// `place` is that of each column along its lamp.
+    fn new(
+        shapes: &[Shape],
+        bits: [u32; 2],
+        place: impl Fn(u32) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            is: shapes
+                .iter()
+                .map(|shape| u32::from(is_disc(shape)))
+                .collect(),
+            distance: Sampled::of_index(bits[0], move |column| place(column).sqrt()),
+            azimuth: azimuth(bits[1]),
+        }
+    }
+
+    /// The factors of the lamp's two edges: those of a disc's radii, or else `others`.
+    #[inline(always)]
+    fn place<A: Arith>(
+        &self,
+        cx: &mut A,
+        [u, v]: [A::Index; 2],
+        lamp: A::Index,
+        others: [A::Real; 2],
+    ) -> [A::Real; 2] {
+        let is = cx.entry(&self.is, lamp);
+        let is = cx.is(is, 1);
+        let distance = cx.sampled(&self.distance, u);
+        [0, 1].map(|k| {
+            let part = cx.sampled(&self.azimuth[k], v);
+            math!(cx, select(is, distance * part, others[k]))
+        })
+    }
+}
+
+/// Cosine and sine of the azimuth, by a sample coordinate of `bits` bits.
+fn azimuth(bits: u32) -> [Sampled; 2] {
+    [
+        Sampled::of_centre(bits, |v| libm::cos(TAU * v)),
+        Sampled::of_centre(bits, |v| libm::sin(TAU * v)),
+    ]
+}
+
 /// The sampling of points on lamps that are spheres, uniform by area. The height on a sphere and the
 /// azimuth are uniform (Archimedes).
 #[derive(Clone, Debug)]
@@ -670,10 +742,7 @@ impl SphereLamps {
                 let place = place(column);
                 2.0 * (place * (1.0 - place)).sqrt()
             }),
-            azimuth: [
-                Sampled::of_centre(bits[1], |v| libm::cos(TAU * v)),
-                Sampled::of_centre(bits[1], |v| libm::sin(TAU * v)),
-            ],
+            azimuth: azimuth(bits[1]),
         }
     }
 

@@ -20,6 +20,37 @@ pub struct EdgeTest {
     pub high: f64,
 }
 
+/// The test that a point of a disc's plane is within the circle: `u^2 + v^2 <= square`.
+///
+/// Let `w` be the values of the forms of the disc's two [edge tests](EdgeTest), those of the square around it.
+/// Then `u = (w[0] - centre[0]) scale[0]` and `v = (w[1] - centre[1]) scale[1]`. Neither exceeds 1 within
+/// the square, so circuits square numbers of few bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscTest {
+    /// The values of both forms at the centre.
+    pub centre: [f64; 2],
+    /// The factors that take both half widths of the square to one length in `(1/2, 1]`. One is a power of
+    /// two, and both are for an axis-aligned plane: a product with it costs a circuit nothing.
+    pub scale: [f64; 2],
+    /// The square of that length.
+    pub square: f64,
+}
+
+/// The tests of points on a face's plane: a point within the face passes all.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Outline {
+    pub(super) edge_tests: Vec<EdgeTest>,
+    /// The circle of a disc, whose square the edge tests bound.
+    pub(super) disc: Option<DiscTest>,
+}
+
+impl Outline {
+    /// True if every point passes.
+    pub(super) fn is_open(&self) -> bool {
+        self.edge_tests.is_empty() && self.disc.is_none()
+    }
+}
+
 /// The plane `p[axis] + a p[axis + 1] + b p[axis + 2] = offset` (axes are counted cyclically), and
 /// the faces on it. Neither `|a|` nor `|b|` exceeds 1; an axis-aligned plane has zeros, which cost
 /// a circuit nothing.
@@ -185,4 +216,61 @@ pub(super) fn edge_tests(
         }
     }
     edge_tests
+}
+
+/// The tests of a disc in the square with these `corners`, on a plane with main axis `axis`.
+pub(super) fn disc_tests(
+    corners: &[DVec3],
+    axis: usize,
+    tolerance: f64,
+) -> (Vec<EdgeTest>, DiscTest) {
+    let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| flat(corners[k]));
+    // Means over opposite edges: rounding of single corners nearly cancels.
+    let centre = (a + b + c + d) * 0.25;
+    let radii = [(b - a + c - d) * 0.25, (d - a + c - b) * 0.25];
+    // The form that is constant along the other radius.
+    let form = |k: usize| {
+        let across = radii[1 - k].perp();
+        let main = if across.x.abs() >= across.y.abs() {
+            across.x
+        } else {
+            across.y
+        };
+        // A coefficient that is only a rounding error becomes 0.
+        let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
+        let form = across / main;
+        DVec2::new(clean(form.x), clean(form.y))
+    };
+    let forms = [form(0), form(1)];
+    let middle = forms.map(|form| form.dot(centre));
+    let half = [0, 1].map(|k| forms[k].dot(radii[k]).abs());
+    let tests = [0, 1].map(|k| {
+        let reach = half[k] + 2.0 * tolerance;
+        EdgeTest {
+            form: forms[k].to_array(),
+            low: middle[k] - reach,
+            high: middle[k] + reach,
+        }
+    });
+    (tests.to_vec(), disc_test(middle, half))
+}
+
+/// The test of a disc around `centre`, whose square has these half widths `half`.
+fn disc_test(centre: [f64; 2], half: [f64; 2]) -> DiscTest {
+    /// Greatest relative difference of half widths that counts as rounding.
+    const SAME: f64 = 1e-12;
+    let (_, exponent) = libm::frexp(half[1]);
+    let second = libm::ldexp(1.0, -exponent);
+    let is_same = (half[0] - half[1]).abs() <= SAME * half[1];
+    let first = if is_same {
+        second
+    } else {
+        second * (half[1] / half[0])
+    };
+    DiscTest {
+        centre,
+        scale: [first, second],
+        square: (half[1] * second) * (half[1] * second),
+    }
 }

@@ -11,7 +11,7 @@
 //! ([`qrt_scene::valid`]). If there are slivers, or if another material that transmits lies on glass, no
 //! refraction has a known bound.
 
-use super::geometry::StageGeometry;
+use super::geometry::{Face, StageGeometry};
 use glam::DVec3;
 use qrt_scene::polygons::{Overlap, SAME_PLANE, Solid, first_overlap, solids};
 use qrt_scene::valid::{Scatter, Surface};
@@ -68,6 +68,12 @@ impl Refraction {
             let Some(ior) = ior(number) else {
                 continue;
             };
+            // A solid is bounded by polygons alone: the squares around discs bound none.
+            let is_round = |face: &Face| face.disc.is_some();
+            let mine = |face: &&Face| surface_of[face.label as usize] as usize == number;
+            if geometry.faces.iter().filter(mine).any(is_round) {
+                continue;
+            }
             let Some(solids) = solids(&outlines(&|surface| surface == number)) else {
                 continue;
             };

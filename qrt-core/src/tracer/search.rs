@@ -28,7 +28,7 @@ mod planner;
 use super::convex::{self, Edges};
 use super::crossing::{AxisPermuted, rise, slope};
 use super::geometry::{NO_FACE, StageGeometry};
-use super::intersect::{constants, meets, within};
+use super::intersect::{constants, meets, within_outline};
 use super::polygon::Plane;
 use super::ray::{Hit, NearestSearch, Ray, Start};
 use super::{Arith, Stage, TracerPart};
@@ -354,7 +354,7 @@ impl Search<'_> {
             let falls = math!(cx, slope < 0.0);
             for &place in faces {
                 let face = &self.geometry.faces[place];
-                let meets = meets(cx, &crossing, &*face.edge_tests);
+                let meets = meets(cx, &crossing, face);
                 let hit = math!(cx, meets && crossing.distance < nearest.distance);
                 let here = Running {
                     distance: crossing.distance,
@@ -388,8 +388,9 @@ impl Search<'_> {
             let mut face = cx.index(NO_FACE);
             let mut flipped = cx.truth(false);
             let along = |label: u32| self.along[label as usize];
-            for (label, tests) in facet.faces.iter().rev() {
-                let inside = within(cx, tests, point);
+            for (label, outline) in facet.faces.iter().rev() {
+                let disc = outline.disc.as_ref();
+                let inside = within_outline(cx, &outline.edge_tests, disc, point);
                 let label_here = cx.index(*label);
                 face = cx.select_index(inside, label_here, face);
                 let other = cx.truth(along(*label) != along(facet.first()));

@@ -9,7 +9,7 @@ use qrt_scene::syntax::{called, codes, listed, meant_by};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.
-pub(super) const ENTRIES: [&str; 20] = [
+pub(super) const ENTRIES: [&str; 21] = [
     "name",
     "camera",
     "film",
@@ -18,6 +18,7 @@ pub(super) const ENTRIES: [&str; 20] = [
     "quad",
     "triangle",
     "sphere",
+    "disc",
     "box",
     "mesh",
     "depth",
@@ -32,14 +33,14 @@ pub(super) const ENTRIES: [&str; 20] = [
     "for",
 ];
 /// Entries that a loop may repeat.
-const REPEATED: [&str; 8] = [
-    "quad", "triangle", "sphere", "box", "mesh", "depth", "const", "for",
+const REPEATED: [&str; 9] = [
+    "quad", "triangle", "sphere", "disc", "box", "mesh", "depth", "const", "for",
 ];
 
 /// The origin of a primitive or a depth, with its author's label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
-    /// `quad`, `triangle`, `sphere`, `box`, `mesh` or `depth`.
+    /// `quad`, `triangle`, `sphere`, `disc`, `box`, `mesh` or `depth`.
     pub(crate) kind: &'static str,
     /// The author's label; `None` if there is none.
     pub(crate) label: Option<String>,
@@ -226,6 +227,7 @@ impl Body {
             "quad" => self.primitive("quad", first, rest, place),
             "triangle" => self.primitive("triangle", first, rest, place),
             "sphere" => self.primitive("sphere", first, rest, place),
+            "disc" => self.primitive("disc", first, rest, place),
             "box" => self.primitive("box", first, rest, place),
             "mesh" => self.primitive("mesh", first, rest, place),
             "depth" => self.depth(first, rest, place),

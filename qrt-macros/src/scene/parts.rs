@@ -58,7 +58,7 @@ impl Body {
         let Some((at, inner)) = self.braces(kind, first, rest) else {
             return self.add_primitive(kind, label, faulty(place));
         };
-        let mut record = if let "mesh" | "sphere" | "box" = kind {
+        let mut record = if let "mesh" | "sphere" | "disc" | "box" = kind {
             self.reader.record(kind, inner, at)
         } else {
             let Some(record) = self.outline(kind, inner, at) else {

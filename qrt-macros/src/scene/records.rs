@@ -16,7 +16,9 @@ impl Reader {
                 self.incomplete.push(place);
                 continue;
             };
-            if let ("mesh" | "sphere" | "box" | "quad" | "triangle", "material") = (name, key) {
+            if let ("mesh" | "sphere" | "disc" | "box" | "quad" | "triangle", "material") =
+                (name, key)
+            {
                 let white = place_of(rest).map_or(at, |end| join(at, end));
                 self.faults
                     .add(

@@ -2,7 +2,7 @@
 
 use super::{code, read_text};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
-use qrt_scene::{Geometry, Scene};
+use qrt_scene::{Disc, Geometry, Scene};
 use std::path::Path;
 
 const CAMERA: &str = "camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },";
@@ -49,6 +49,30 @@ fn an_undefined_name_makes_one_error() {
     };
     assert_eq!(codes(&quad("1")), ["QRT0301"]);
     assert_eq!(codes(&quad("SIZE")), ["QRT0712"]);
+}
+
+#[test]
+fn a_disc_is_written_as_a_sphere_is() {
+    let white = "film: 8x8, material white: mirror { reflectance: rgb(1, 1, 1) },";
+    let disc = "disc pond: white { center: (1, 2, 3), normal: (0, 2, 0), radius: 0.5, scale: 2 }";
+    let scene = scene(&format!("{white} {disc}"));
+    let expected = Disc {
+        scale: 2.0,
+        ..Disc::new([1.0, 2.0, 3.0].into(), [0.0, 2.0, 0.0].into(), 0.5, "white")
+    };
+    assert_eq!(scene.geometry, [Geometry::Disc(expected)]);
+    assert_eq!(
+        codes(&format!(
+            "{white} {}",
+            disc.replace("(0, 2, 0)", "(0, 0, 0)")
+        )),
+        ["QRT0310"]
+    );
+    let other = disc.replace("disc", "disk");
+    let text = format!("scene Room {{ {CAMERA} {white} {other} }}");
+    let (_, faults) = read_text(&text, Path::new(""));
+    let told = format!("{faults:?}");
+    assert!(told.contains("`disk` is called `disc` here"), "{told}");
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn primitive(node: &Node) -> Option<String> {
             _ => return None,
         },
     };
-    let body = if let "mesh" | "sphere" | "box" = key.as_str() {
+    let body = if let "mesh" | "sphere" | "disc" | "box" = key.as_str() {
         let rest = map(node)?.iter().filter(|entry| entry.key != "material");
         let value = Value::Map(Arc::new(rest.cloned().collect()));
         record(key, &Node { value, ..*node })?

@@ -17,19 +17,23 @@ pub use ball::{LitFace, polygon_distance, strongest_of};
 pub use bound::{Reached, strongest, strongest_form};
 
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// Maximum deviation of a parallelogram's corners, relative to its size.
 const PARALLEL: f64 = 1e-9;
 
-/// A polygon that emits: a parallelogram, or a triangle, which is half of one.
+/// A flat face that emits: a parallelogram, a triangle, which is half of one, or a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lamp {
-    /// The corner where `edges` start.
+    /// The corner where `edges` start; the centre of a disc.
     pub corner: DVec3,
-    /// The point of `(u, v)` is `corner + u edges[0] + v edges[1]`.
+    /// The point of `(u, v)` is `corner + u edges[0] + v edges[1]`. For a disc, whose edges are two radii, it is
+    /// `corner + sqrt(u) (cos(2 pi v) edges[0] + sin(2 pi v) edges[1])`.
     pub edges: [DVec3; 2],
     /// True if points with `u + v > 1` are folded back to `(1 - u, 1 - v)`.
     pub triangle: bool,
+    /// True for a disc.
+    pub disc: bool,
     /// The unit normal of the side that emits.
     pub normal: DVec3,
     /// The lamp's area.
@@ -53,9 +57,25 @@ impl Lamp {
             corner: a,
             edges,
             triangle,
+            disc: false,
             normal: across.normalize(),
             area: share * across.length(),
         })
+    }
+
+    /// Creates the lamp of the disc in a square with these corners.
+    pub fn disc([a, b, c, d]: [DVec3; 4]) -> Self {
+        // Means over opposite edges: rounding of single corners nearly cancels.
+        let edges = [(b - a + c - d) * 0.25, (d - a + c - b) * 0.25];
+        let across = edges[0].cross(edges[1]);
+        Self {
+            corner: (a + b + c + d) * 0.25,
+            edges,
+            triangle: false,
+            disc: true,
+            normal: across.normalize(),
+            area: PI * across.length(),
+        }
     }
 }
 

@@ -1,9 +1,9 @@
 //! Scenes written in Rust, part by part.
 
 use super::{
-    Accuracy, Budget, Camera, Circuit, Comparator, Counting, Cuboid, DepthSampling, Film, Geometry,
-    Map, Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene, Sky, Sphere,
-    Triangle,
+    Accuracy, Budget, Camera, Circuit, Comparator, Counting, Cuboid, DepthSampling, Disc, Film,
+    Geometry, Map, Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene,
+    Sky, Sphere, Triangle,
 };
 use glam::DVec3;
 
@@ -196,6 +196,17 @@ impl SceneBuilder {
     /// Adds a sphere of a material.
     pub fn sphere(self, material: &str, center: impl Into<DVec3>, radius: f64) -> Self {
         self.geometry(Sphere::new(center.into(), radius, material))
+    }
+
+    /// Adds a disc of a material, whose front faces along `normal`.
+    pub fn disc(
+        self,
+        material: &str,
+        center: impl Into<DVec3>,
+        normal: impl Into<DVec3>,
+        radius: f64,
+    ) -> Self {
+        self.geometry(Disc::new(center.into(), normal.into(), radius, material))
     }
 
     /// Adds a box of a material along the axes, by its corners with the least and the greatest

@@ -183,7 +183,8 @@ variant! {
     pub enum Material = "a material";
     /// Matte, on both sides: albedo / pi.
     Lambertian(Lambertian) = "lambertian";
-    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian.
+    /// Emits on the front: the side of (v1 - v0) x (v2 - v0), or of a disc's `normal`. Reflects as a
+    /// Lambertian.
     Emitter(Emitter) = "emitter";
     /// A perfect mirror, on both sides.
     Mirror(Mirror) = "mirror";
@@ -209,7 +210,8 @@ record! {
 }
 
 record! {
-    /// Emits on the side of (v1 - v0) x (v2 - v0); reflects as a Lambertian on both sides.
+    /// Emits on the front: the side of (v1 - v0) x (v2 - v0), or of a disc's `normal`. Reflects as a
+    /// Lambertian on both sides.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Emitter = "an emitter";
     /// The radiance that leaves the front, in linear RGB. The picture's values have the same unit.
@@ -317,6 +319,8 @@ variant! {
     Triangle(Triangle) = "triangle";
     /// A sphere.
     Sphere(Sphere) = "sphere";
+    /// A disc: the flat region within a circle.
+    Disc(Disc) = "disc";
     /// A box, by two opposite corners.
     Cuboid(Cuboid) = "box";
     /// Triangles and polygons from a file, which exactly one of the keys `obj`, `ply` and `gltf`
@@ -363,6 +367,26 @@ record! {
     pub struct Sphere = "a sphere";
     /// The centre, in scene units.
     pub center: DVec3 = point();
+    /// The radius, in scene units.
+    pub radius: f64 = LENGTH;
+    /// The name of a material.
+    pub material: String = Text;
+    /// The factor of its size, about the origin: 1 if it is left out.
+    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
+    /// Degrees about x, then y, then z, all through the origin; default none.
+    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
+    /// Added to every point, in scene units; default none.
+    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
+}
+
+record! {
+    /// A disc, the flat region within a circle, scaled, then rotated, then translated.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Disc = "a disc";
+    /// The centre, in scene units.
+    pub center: DVec3 = point();
+    /// The direction that the front faces, of any length.
+    pub normal: DVec3 = point();
     /// The radius, in scene units.
     pub radius: f64 = LENGTH;
     /// The name of a material.
@@ -474,6 +498,21 @@ impl Sphere {
     pub fn new(center: DVec3, radius: f64, material: impl Into<String>) -> Self {
         Self {
             center,
+            radius,
+            material: material.into(),
+            scale: 1.0,
+            rotate: DVec3::ZERO,
+            translate: DVec3::ZERO,
+        }
+    }
+}
+
+impl Disc {
+    /// Creates a disc of a material, whose front faces along `normal`.
+    pub fn new(center: DVec3, normal: DVec3, radius: f64, material: impl Into<String>) -> Self {
+        Self {
+            center,
+            normal,
             radius,
             material: material.into(),
             scale: 1.0,

@@ -116,6 +116,8 @@ codes! {
         "Use a coarser mesh, or fewer copies of it";
     GLASS_TOUCHES = "QRT0309", "faces of glass that lie on each other",
         "Leave a gap between the pieces, or let one reach into the other";
+    DISC_NORMAL = "QRT0310", "a disc whose `normal` has no direction",
+        "Write the direction that the front faces, of any length above 0";
     OUTSIDE = "QRT0319", "a file outside the scene's folder",
         "Put it beside the scene, or allow its folder with `--allow-files DIR`";
     OBJ_UNREADABLE = "QRT0320", "a mesh file that cannot be read",

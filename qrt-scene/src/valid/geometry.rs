@@ -3,11 +3,11 @@
 //! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
 //! the origin, is treated like any other.
 
-use crate::polygons::{MOST_PAIRS, mean_normals, unit_normal};
+use crate::polygons::{MOST_PAIRS, main_axis, mean_normals, unit_normal};
 use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
-use crate::scene::{Cuboid, Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
+use crate::scene::{Cuboid, Disc, Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
 use crate::syntax::{
     Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
     Structure, Triangles, nearest,
@@ -113,6 +113,10 @@ pub(super) fn polygons(
                     build.ball(centre, radius, (surface, index), &path);
                 }
             }
+            Geometry::Disc(disc) => {
+                let surface = build.surface(&disc.material, &path);
+                build.disc(disc, surface, &path);
+            }
             Geometry::Cuboid(cuboid) => {
                 let surface = build.surface(&cuboid.material, &path);
                 build.cuboid(cuboid, surface, &path);
@@ -214,6 +218,7 @@ impl<'a> Build<'a> {
                 self.out.push(Polygon {
                     vertices: *vertices,
                     corners: 4,
+                    disc: false,
                     surface,
                 });
             }
@@ -277,6 +282,41 @@ impl<'a> Build<'a> {
                 surface,
                 primitive,
             });
+        }
+    }
+
+    /// Adds a disc, by the square around it.
+    fn disc(&mut self, disc: &Disc, surface: u32, path: &Path) {
+        let normal = path.key("normal");
+        if self.problems.touches(&normal) {
+            return;
+        }
+        let Some(mut front) = unit_vector(disc.normal) else {
+            return self.problems.add(normal, Fault::NoNormal);
+        };
+        let moved = Transform::of_shape(disc.scale, disc.rotate, disc.translate);
+        if let Some(transform) = &moved {
+            front = transform.turn(front);
+        }
+        let Some([centre]) = self.moved([disc.center], moved, path) else {
+            return;
+        };
+        let radius = disc.radius * disc.scale;
+        let vertices = square_around(centre, front, radius);
+        let fault = if !(radius > 0.0 && vertices.iter().all(|&vertex| is_in_range(vertex))) {
+            Fault::Far
+        } else if quad_fault(&vertices).is_some() {
+            Fault::Small
+        } else {
+            return self.out.push(Polygon {
+                vertices,
+                corners: 4,
+                disc: true,
+                surface,
+            });
+        };
+        if !self.problems.touches(path) {
+            self.problems.add(path.clone(), fault);
         }
     }
 
@@ -499,6 +539,27 @@ impl<'a> Build<'a> {
     }
 }
 
+/// The unit vector along `direction`; `None` if it is zero.
+fn unit_vector(direction: DVec3) -> Option<DVec3> {
+    // The size is divided out first, so that squares neither overflow nor vanish.
+    let size = direction.abs().max_element();
+    (size > 0.0).then(|| (direction / size).normalize())
+}
+
+/// Corners of a square around a disc, counterclockwise as seen from the side of the unit `normal`. Its
+/// edges are parallel to an axis where the plane allows it, which saves products in circuits.
+fn square_around(centre: DVec3, normal: DVec3, radius: f64) -> [DVec3; 4] {
+    let away = [DVec3::Y, DVec3::Z, DVec3::X][main_axis(normal)];
+    let first = (away - normal * normal.dot(away)).normalize() * radius;
+    let second = normal.cross(first);
+    [
+        centre - first - second,
+        centre + first - second,
+        centre + first + second,
+        centre - first + second,
+    ]
+}
+
 /// The constructor of a problem of triangles that cannot be placed.
 type Kind = fn(Triangles) -> Unplaced;
 
@@ -506,6 +567,7 @@ fn triangle([a, b, c]: [DVec3; 3], surface: u32) -> Polygon {
     Polygon {
         vertices: [a, b, c, c],
         corners: 3,
+        disc: false,
         surface,
     }
 }

@@ -27,8 +27,9 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
     }
     let (centre, scale) = stage_units(valid.extent());
     let staged = |polygon: &usize| -> Vec<DVec3> {
-        let outline = valid.polygons[*polygon].outline().iter();
-        outline.map(|corner| (*corner - centre) * scale).collect()
+        let outline = valid.polygons[*polygon].inner_outline();
+        let staged = outline.iter().map(|corner| (*corner - centre) * scale);
+        staged.collect()
     };
     let outlines: Vec<Vec<DVec3>> = glass.iter().map(staged).collect();
     let outlines: Vec<&[DVec3]> = outlines.iter().map(Vec::as_slice).collect();
@@ -38,7 +39,7 @@ pub(super) fn check(valid: &ValidScene, problems: &mut Problems) {
             let place = valid.place_of(glass[number]);
             match primitive {
                 Geometry::Mesh(_) => place.key("obj"),
-                Geometry::Cuboid(_) => place,
+                Geometry::Cuboid(_) | Geometry::Disc(_) => place,
                 _ => place.key("vertices"),
             }
         };

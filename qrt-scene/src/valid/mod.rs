@@ -135,13 +135,17 @@ pub struct CustomBsdf {
     pub pdf: Option<Expr>,
 }
 
-/// A triangle or a planar convex quadrilateral in world space.
+/// A triangle, a planar convex quadrilateral or a disc in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polygon {
-    /// Corners; a triangle repeats its last one.
+    /// Corners; a triangle repeats its last one. Those of a disc are the corners of a square around it, up to
+    /// rounding.
     pub vertices: [DVec3; 4],
     /// Number of corners of the polygon: 3 or 4.
     pub corners: u8,
+    /// True for a disc: the circle that touches the square's edges is its outline. Analyses of the square
+    /// hold for the disc if they need a region that contains it.
+    pub disc: bool,
     /// The polygon's surface, as an index into [`ValidScene::surfaces`].
     pub surface: u32,
 }
@@ -330,7 +334,7 @@ impl ValidScene {
         }
         for polygon in &self.polygons {
             print = print
-                .and(&[polygon.corners])
+                .and(&[polygon.corners + u8::from(polygon.disc)])
                 .and(&polygon.surface.to_le_bytes());
             for value in polygon.vertices.iter().flat_map(DVec3::to_array) {
                 print = print.and(&value.to_bits().to_le_bytes());

@@ -37,6 +37,7 @@ fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
         Geometry::Quad(quad) => Some(quad.material.as_str()),
         Geometry::Triangle(triangle) => Some(triangle.material.as_str()),
         Geometry::Sphere(sphere) => Some(sphere.material.as_str()),
+        Geometry::Disc(disc) => Some(disc.material.as_str()),
         Geometry::Cuboid(cuboid) => Some(cuboid.material.as_str()),
         Geometry::Mesh(mesh) => mesh.material.as_deref(),
     });
@@ -100,7 +101,11 @@ fn unlit(valid: &ValidScene) -> Option<Problem> {
             return None;
         }
     }
-    Some(Problem::new(valid.place_of(first), Unlit::LampsAway))
+    let is_disc = valid.polygons[first].disc;
+    Some(Problem::new(
+        valid.place_of(first),
+        Unlit::LampsAway { is_disc },
+    ))
 }
 
 /// Returns the polygons at which the last but one ray of a path may end: those that scatter and
@@ -144,7 +149,12 @@ fn opposite_lamps(valid: &ValidScene) -> Vec<Problem> {
         let mut before = before.take(pairs_left);
         let hidden_by = before.find(|(_, other, facing)| {
             pairs_left -= 1;
-            plane.is_opposite(facing) && overlap(lamp.outline(), other.outline(), plane.rounding)
+            plane.is_opposite(facing)
+                && overlap(
+                    &lamp.inner_outline(),
+                    &other.inner_outline(),
+                    plane.rounding,
+                )
         });
         if let Some((first, ..)) = hidden_by {
             let (place, first) = (valid.place_of(*number), valid.place_of(*first));

@@ -28,7 +28,7 @@ const GROUPS: [(&str, &str, &str); 14] = [
         "Values that are of the right kind, but cannot be meant.",
     ),
     (
-        "QRT030",
+        "QRT030 QRT0310",
         "Geometry",
         "Primitives, after meshes have been placed.",
     ),

@@ -41,6 +41,7 @@ geometry:
       material: white
   - triangle: { vertices: [[0, 1, 0], [1, 1, 0], [0, 2, 0]], material: lamp }
   - sphere: { center: [0, 1, 0], radius: 1, material: white }
+  - disc: { center: [0, 3, 0], normal: [0, -1, 0], radius: 0.5, material: lamp }
   - box: { min: [-1, 0, -1], max: [1, 2, 1], material: white, rotate: [0, 30, 0] }
   - mesh: { obj: meshes/knot.obj, material: white, scale: 0.5, translate: [0, 1, 0] }
 ",

@@ -15,6 +15,7 @@ fn found(outlines: &[Vec<[f64; 3]>]) -> Vec<[usize; 2]> {
         Polygon {
             vertices,
             corners: outline.len() as u8,
+            disc: false,
             surface: 0,
         }
     };
@@ -148,6 +149,7 @@ fn a_polygon_is_inside_a_body_by_more_than_the_tolerance() {
         .map(|outline| Polygon {
             vertices: [0, 1, 2, 3].map(|k| DVec3::from_array(outline[k])),
             corners: 4,
+            disc: false,
             surface: 0,
         })
         .collect();

@@ -5,7 +5,7 @@ use super::mesh::MeshPlan;
 use super::planner::Planner;
 use crate::tracer::ball::StageBall;
 use crate::tracer::convex::{Body, Bound, covered, height};
-use crate::tracer::polygon::{EdgeTest, Plane, edge_test};
+use crate::tracer::polygon::{Outline, Plane, edge_test};
 use crate::tracer::ray::Start;
 use glam::DVec3;
 use qrt_scene::polygons::SAME_PLANE;
@@ -52,7 +52,7 @@ pub(super) struct OuterSide {
 #[derive(Debug, PartialEq)]
 pub(super) struct Facet {
     pub(super) axis: usize,
-    pub(super) faces: Vec<(u32, Vec<EdgeTest>)>,
+    pub(super) faces: Vec<(u32, Outline)>,
 }
 
 /// A convex body, and the ways in which rays may meet it.
@@ -108,18 +108,18 @@ impl Facet {
 
     /// True if that label is the face: it has no tests.
     pub(super) fn is_plain(&self) -> bool {
-        self.faces[0].1.is_empty()
+        self.faces[0].1.is_open()
     }
 
-    /// Creates a facet of faces in the order in which they hide each other, with their edge tests. Faces
+    /// Creates a facet of faces in the order in which they hide each other, with their tests. Faces
     /// after a face without tests are never met.
-    fn new(axis: usize, faces: impl Iterator<Item = (u32, Vec<EdgeTest>)>) -> Self {
+    fn new(axis: usize, faces: impl Iterator<Item = (u32, Outline)>) -> Self {
         let mut facet = Self {
             axis,
             faces: Vec::new(),
         };
         for face in faces {
-            let plain = face.1.is_empty();
+            let plain = face.1.is_open();
             facet.faces.push(face);
             if plain {
                 break;
@@ -380,21 +380,29 @@ impl Planner<'_> {
         };
         let all: Vec<Vec<[u32; 2]>> = faces.iter().map(tested).collect();
         // If all edges are implied except those at which two of these faces meet, a ray that meets the
-        // plane meets one of the faces: the last one needs no test.
+        // plane meets one of the polygons: the last one needs no test. Discs have no edges, and keep their
+        // tests.
         let plane = faces.first().map_or(0, |&place| {
             self.geometry.plane_of[self.label(place) as usize]
         });
         let whole = all.iter().flatten().all(|&edge| self.meet(edge, plane));
-        let last = faces.len().wrapping_sub(1);
+        let is_polygon = |&place: &usize| self.geometry.faces[place].disc.is_none();
+        let last = faces.iter().rposition(is_polygon);
         let tests = faces.iter().zip(&all).enumerate();
         let tests = tests.map(|(k, (&place, edges))| {
             let label = self.label(place);
+            let face = &self.geometry.faces[place];
+            if face.disc.is_some() {
+                let (edge_tests, disc) = (face.edge_tests.clone(), face.disc);
+                return (label, Outline { edge_tests, disc });
+            }
             let centre = self.geometry.frames[label as usize].centre;
-            let edges = edges.iter().filter(|_| !(whole && k == last));
+            let edges = edges.iter().filter(|_| !(whole && Some(k) == last));
             let tolerance = self.geometry.tolerance;
             let tests =
                 edges.map(|&edge| edge_test(self.edges.ends(edge), axis, centre, tolerance));
-            (label, tests.collect())
+            let (edge_tests, disc) = (tests.collect(), None);
+            (label, Outline { edge_tests, disc })
         });
         Facet::new(axis, tests)
     }

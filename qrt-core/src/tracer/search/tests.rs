@@ -13,6 +13,7 @@ use std::fmt::Write;
 
 mod balls;
 pub(super) mod circuit;
+mod discs;
 mod found;
 mod scenes;
 

@@ -3,7 +3,7 @@
 use super::build::{self, Bounds};
 use crate::path_machines::lanes::Lanes;
 use qrt_core::tracer::{
-    Arith, AxisPermuted, Crossing, EdgeTest, Ray, StageGeometry, between, cross, weighted,
+    Arith, AxisPermuted, Crossing, DiscTest, EdgeTest, Ray, StageGeometry, between, cross, weighted,
 };
 
 /// Largest number of faces that are taken out of the tree.
@@ -22,6 +22,7 @@ pub(super) struct LargeFace {
     form: [f64; 2],
     offset: f64,
     edge_tests: Vec<EdgeTest>,
+    disc: Option<DiscTest>,
     /// True if the face may stand between a point of the scene and a point on a lamp.
     pub(super) blocks: bool,
 }
@@ -67,6 +68,7 @@ impl LargeFace {
             form: on.form,
             offset: on.offset,
             edge_tests: geometry.faces[rank as usize].edge_tests.clone(),
+            disc: geometry.faces[rank as usize].disc,
             blocks: !passed || beside.any(|face| face.covers.is_some()),
         }
     }
@@ -104,6 +106,10 @@ impl LargeFace {
             let (low, high) = (cx.real(edge_test.low), cx.real(edge_test.high));
             let inside = between(cx, low, value, high);
             meets = cx.and(meets, inside);
+        }
+        if let Some(disc) = &self.disc {
+            let within = disc.holds(cx, &self.edge_tests, point);
+            meets = cx.and(meets, within);
         }
         (meets, distance)
     }

@@ -5,7 +5,7 @@ use super::approach::{Lines, MOST_RAYS};
 use super::walk::Search;
 use crate::path_machines::lanes::{Lanes, lanes};
 use crate::path_machines::masks::bits;
-use qrt_core::tracer::{Arith, AxisPermuted, StageGeometry, cross, weighted};
+use qrt_core::tracer::{Arith, AxisPermuted, DiscNumbers, StageGeometry, cross, weighted};
 
 /// Largest number of edges of a face.
 const EDGES: usize = 4;
@@ -25,6 +25,71 @@ pub(super) struct Packet {
     rank: [u32; FACES],
     /// Number of edges of the face that has the most.
     most_edges: u32,
+    /// The tests of discs, if the packet has any.
+    discs: Option<Box<DiscColumns>>,
+}
+
+/// The tests of discs, by face: see [`DiscTest`](qrt_core::tracer::DiscTest). Numbers of another face make its
+/// test true for every point.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+struct DiscColumns {
+    /// The forms of both edge tests.
+    forms: [[[f64; FACES]; 2]; 2],
+    centre: [[f64; FACES]; 2],
+    scale: [[f64; FACES]; 2],
+    square: [f64; FACES],
+}
+
+impl DiscColumns {
+    /// The tests of the faces `ranks`; none if no face is a disc.
+    fn new(geometry: &StageGeometry, ranks: &[u32]) -> Option<Box<Self>> {
+        let mut columns = Box::new(Self {
+            forms: [[[0.0; FACES]; 2]; 2],
+            centre: [[0.0; FACES]; 2],
+            scale: [[0.0; FACES]; 2],
+            square: [f64::INFINITY; FACES],
+        });
+        let mut has_disc = false;
+        for (lane, &rank) in ranks.iter().enumerate() {
+            let face = &geometry.faces[rank as usize];
+            let Some(disc) = face.disc else {
+                continue;
+            };
+            has_disc = true;
+            for k in 0..2 {
+                let form = face.edge_tests[k].form;
+                (columns.forms[k][0][lane], columns.forms[k][1][lane]) = (form[0], form[1]);
+                columns.centre[k][lane] = disc.centre[k];
+                columns.scale[k][lane] = disc.scale[k];
+            }
+            columns.square[lane] = disc.square;
+        }
+        has_disc.then_some(columns)
+    }
+
+    /// The faces, beginning at face `first`, whose tests `point` passes.
+    #[inline(always)]
+    fn hold<S: pulp::Simd>(
+        &self,
+        cx: &mut Lanes<'_, S, 1>,
+        first: usize,
+        point: [[S::f64s; 1]; 2],
+    ) -> [S::m64s; 1] {
+        let simd = cx.simd;
+        let real = |column| [reals(simd, column, first)];
+        let numbers = DiscNumbers::<Lanes<'_, S, 1>> {
+            centre: [real(&self.centre[0]), real(&self.centre[1])],
+            scale: [real(&self.scale[0]), real(&self.scale[1])],
+            square: real(&self.square),
+            most: 0.0,
+        };
+        let values = [0, 1].map(|k| {
+            let form = [real(&self.forms[k][0]), real(&self.forms[k][1])];
+            weighted(cx, form, point)
+        });
+        numbers.hold(cx, values)
+    }
 }
 
 /// Returns the plane of each face, in the order of [`StageGeometry::faces`].
@@ -67,6 +132,7 @@ impl Packet {
             offset: [0.0; FACES],
             edges: [everywhere; EDGES],
             most_edges: 0,
+            discs: DiscColumns::new(geometry, ranks),
             plane: [u64::MAX; FACES],
             rank: [u32::MAX; FACES],
         };
@@ -162,6 +228,10 @@ impl Packet {
             let value = weighted(cx, form, crossing.point);
             let inside = cx.less_equal(real(&edge[2]), value);
             hit = cx.and(hit, inside);
+        }
+        if let Some(discs) = &self.discs {
+            let within = discs.hold(cx, first, crossing.point);
+            hit = cx.and(hit, within);
         }
         (hit[0], crossing.distance)
     }

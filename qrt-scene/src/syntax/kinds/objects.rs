@@ -33,11 +33,14 @@ problems! {
     Unlit {
         NoLamp = BLACK "nothing emits: every picture of this scene is black"
             help "give a primitive an `emitter` material, or the scene a `sky`";
-        LampsAway = BLACK
+        LampsAway { is_disc: bool } = BLACK
             "every lamp shines away from all that the camera sees: the picture is black"
             label "this lamp emits on its other side"
-            help "a lamp emits on its front, where its vertices run counterclockwise: list them in \
-                  the other order";
+            help { Some(if *is_disc {
+                "a disc emits on its front, to which its `normal` points: write the opposite `normal`"
+            } else {
+                "a lamp emits on its front, where its vertices run counterclockwise: list them in the other order"
+            }.to_owned()) };
         OppositeLamp = OPPOSITE_LAMP
             "this lamp lies on one that faces the other way: its light is lost where they overlap"
             label "of faces in one place, the first is seen"
@@ -51,8 +54,8 @@ problems! {
             { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
             help { Some(match *kind {
                 "metal" => "Mitsuba's metals take Fresnel's formulas: use `ggx`, or `mirror` for smooth metal".to_owned(),
-                "checker" => "on faces that are parallel to two axes it is exported: draw a slanted face or a \
-                    sphere in one colour".to_owned(),
+                "checker" => "on faces that are parallel to two axes it is exported: draw a slanted face, a \
+                    sphere or a disc in one colour".to_owned(),
                 "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),
                 _ => "a map and a value of one's own are qrt's alone: use another material".to_owned(),
             }) };
@@ -97,6 +100,10 @@ problems! {
             help "list the vertices in order around the outline";
         Thin = ZERO_AREA "the box is too thin: rounding decides where its faces look"
             help "use a larger extent or a smaller translation, or write a quad";
+        Small = ZERO_AREA "the disc is too small: rounding decides its outline"
+            help "use a larger radius, or a centre nearer to the origin";
+        NoNormal = DISC_NORMAL "`normal` is zero: it has no direction"
+            help "write the direction that the front faces, such as [0, 1, 0]";
         Far = MESH_RANGE "the shape is out of range once it is scaled, rotated and translated"
             help "use a smaller transform";
         Merged = MESH_RANGE "rounding makes one point of two vertices once the shape is moved"

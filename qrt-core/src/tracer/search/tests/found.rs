@@ -76,7 +76,9 @@ fn a_wall_whose_edges_are_corners_of_the_room_has_no_tests() {
         .outer
         .iter()
         .flat_map(|outer| outer.sides.iter().flatten());
-    let mut tests: Vec<usize> = outer.map(|side| side.facet.faces[0].1.len()).collect();
+    let mut tests: Vec<usize> = outer
+        .map(|side| side.facet.faces[0].1.edge_tests.len())
+        .collect();
     tests.sort_unstable();
     assert_eq!(tests, [0, 1, 1, 1, 1]);
 }
