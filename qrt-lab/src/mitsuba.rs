@@ -75,7 +75,7 @@ const CHECKER: &str = "checker";
 pub struct NoCounterpart {
     /// Name of the material in the scene.
     pub name: String,
-    /// `metal`, `phong` or `bsdf`; `checker` for one on a sphere or a slanted face.
+    /// `metal`, `phong` or `bsdf`; `checker` for one on a sphere, a disc or a slanted face.
     pub kind: &'static str,
 }
 
@@ -106,7 +106,8 @@ impl NoCounterpart {
 ///
 /// # Errors
 /// If a face has a material that Mitsuba lacks: a `metal`, a `phong` with a specular part, a
-/// user-defined `bsdf`, or a checker where the face is not parallel to two of the scene's axes.
+/// user-defined `bsdf`, or a checker on a sphere, on a disc, or where the face is not parallel to two of the
+/// scene's axes.
 pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
     let depth = scene.scene().sampling.depths.len();
     let mut text = format!(
@@ -145,12 +146,22 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
         let is_lamp = |face: &&Face<'_>| {
             surface.emits() && checker.is_none() && is_parallelogram(face.polygon)
         };
-        let (lamps, faces): (Vec<&Face<'_>>, Vec<&Face<'_>>) = faces.iter().partition(is_lamp);
+        let is_alone = |face: &&Face<'_>| face.polygon.disc || is_lamp(face);
+        let (alone, faces): (Vec<&Face<'_>>, Vec<&Face<'_>>) = faces.iter().partition(is_alone);
+        // The texture coordinates of Mitsuba's discs are polar.
+        if checker.is_some() && alone.iter().any(|face| face.polygon.disc) {
+            return Err(NoCounterpart::new(surface, CHECKER));
+        }
         let material = material(surface)?;
-        for lamp in lamps {
+        for face in alone {
+            let kind = if face.polygon.disc {
+                "disk"
+            } else {
+                "rectangle"
+            };
             let shape = format!(
-                "    <shape type=\"rectangle\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n",
-                square_to(lamp.polygon)
+                "    <shape type=\"{kind}\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n",
+                square_to(face.polygon)
             );
             text.push_str(&(shape + &material));
         }
@@ -361,7 +372,7 @@ fn is_parallelogram(face: &Polygon) -> bool {
 }
 
 /// Returns the matrix, by rows, that maps the square from -1 to 1, whose normal is z, to a
-/// parallelogram.
+/// parallelogram, and the unit disc to the disc in it.
 fn square_to(face: &Polygon) -> String {
     let [v0, v1, _, v3] = face.vertices;
     let (x, y) = (0.5 * (v1 - v0), 0.5 * (v3 - v0));

@@ -241,6 +241,63 @@ fn a_scene_for_mitsuba_is_xml_that_names_files_which_hold_its_faces() {
     );
 }
 
+/// A disc above a floor that looks down, and one of glass that is moved.
+const DISCS: &str = "
+name: discs
+camera: { orthographic: { eye: [0, 0, 4], target: [0, 0, 0], height: 2 } }
+film: { width: 4, height: 2 }
+materials:
+  lamp: { emitter: { radiance: 3 } }
+  glass: { dielectric: { ior: 1.5 } }
+geometry:
+  - disc: { center: [1, 2, 3], normal: [0, -1, 0], radius: 0.5, material: lamp }
+  - disc: { center: [0, 0, 1], normal: [0, 0, 2], radius: 1, scale: 0.25, rotate: [0, 90, 0], material: glass }
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }], lights: none }
+";
+
+/// Mitsuba's disc is the unit disc of z = 0 with the normal z: a lamp's and any other's matrix takes it to
+/// the disc.
+#[test]
+fn discs_are_discs_for_mitsuba() {
+    let folder = Folder::with("discs.yaml", DISCS);
+    folder.works(&["export", "discs.yaml", "--format", "mitsuba"]);
+    assert_eq!(folder.names(), ["discs.xml", "discs.yaml"]);
+    let text = String::from_utf8(folder.read("discs.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let shapes = xml.descendants().filter(|node| node.has_tag_name("shape"));
+    let kinds: Vec<_> = shapes.map(|node| node.attribute("type")).collect();
+    assert_eq!(kinds, [Some("disk"); 2]);
+    let matrices = xml.descendants().filter(|node| node.has_tag_name("matrix"));
+    let matrices = matrices.map(|node| node.attribute("value").unwrap());
+    let numbers = matrices.map(|text| text.split(' ').map(|n| n.parse().unwrap()).collect());
+    let numbers: Vec<Vec<f64>> = numbers.collect();
+    for (matrix, centre, normal, radius) in [
+        (&numbers[0], [1.0, 2.0, 3.0], [0.0, -1.0, 0.0], 0.5),
+        (&numbers[1], [0.25, 0.0, 0.0], [1.0, 0.0, 0.0], 0.25),
+    ] {
+        let column = |k: usize| [0, 1, 2].map(|row| matrix[4 * row + k]);
+        assert_eq!([column(2), column(3)], [normal, centre]);
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let [x, y] = [column(0), column(1)];
+        let square = radius * radius;
+        for (product, expected) in [
+            (dot(x, x), square),
+            (dot(y, y), square),
+            (dot(x, y), 0.0),
+            (dot(x, normal), 0.0),
+            (dot(y, normal), 0.0),
+        ] {
+            assert!((product - expected).abs() < 1e-12, "{matrix:?}");
+        }
+    }
+    let checker = "lambertian: { albedo: { checker: { of: [0.9, 0.1], scale: 1 } } }";
+    let text = DISCS.replace("dielectric: { ior: 1.5 }", checker);
+    fs::write(folder.path("discs.yaml"), text).unwrap();
+    let errors = folder.fails(2, &["export", "discs.yaml", "--format", "mitsuba"]);
+    let refusal = "no counterpart of the `checker` of `glass`";
+    assert!(errors.contains(refusal), "{errors}");
+}
+
 #[test]
 fn what_mitsuba_cannot_show_is_refused_where_it_is_written() {
     let scene = |material: &str| {

@@ -198,6 +198,13 @@ fn lamps_that_are_spheres_agree() {
     agrees_by_lamps("bulbs", 0.1);
 }
 
+/// Discs that are lamps, sampled and not, and discs that shade.
+#[test]
+fn discs_agree() {
+    agrees("discs", 14, 0.1);
+    agrees_by_lamps("discs", 0.1);
+}
+
 /// Smooth meshes of glass, metal and clay in a room. Its file and materials have the form that Blender's
 /// exporter writes.
 #[test]
