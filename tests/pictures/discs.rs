@@ -75,6 +75,41 @@ fn a_disc_covers_its_projected_area() {
     }
 }
 
+/// A disc of any size is as round at any distance from the origin, as far as coordinates have digits.
+#[test]
+fn size_and_distance_do_not_matter() {
+    let r = 0.4;
+    let expected = PI * r * r * 2.0 / 3.0;
+    for (unit, away) in [
+        (1.0, 0.0),
+        (1e-6, 0.0),
+        (1e9, 0.0),
+        (1.0, 1e9),
+        (1e-6, 100.0),
+    ] {
+        let at = |x: f64| away + unit * x;
+        let (x, high, target) = (at(0.0), at(9.0), at(-1.0));
+        let text = format!(
+            "name: far
+camera: {{ orthographic: {{ eye: [{x:?}, {high:?}, {x:?}], target: [{x:?}, {target:?}, {x:?}], up: [0, 0, -1], height: {unit:?} }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ lamp: {{ emitter: {{ radiance: [4, 2, 1] }} }} }}
+geometry:
+{}{ALONE}",
+            disc([x, at(1.0), x], [1.0, 2.0, -2.0], r * unit, "lamp")
+        );
+        let scene = written(&text, &[]);
+        for model in [Model::Real, Model::Fixed] {
+            near(
+                &format!("{unit}, {away}, {model:?}"),
+                seen(&scene, model)[0],
+                expected,
+                5e-3,
+            );
+        }
+    }
+}
+
 /// A disc is dark from behind.
 #[test]
 fn the_front_is_the_side_of_the_normal() {

@@ -149,3 +149,64 @@ geometry:
     let codes = loaded.warnings().unwrap().codes();
     assert_eq!(codes, ["QRT0220", "QRT0221"]);
 }
+
+/// Discs are compared by their circles, not by the squares around them.
+#[test]
+fn lamps_that_are_discs_are_told_of_as_others_are() {
+    let disc = |x: f64, normal: f64, material: &str| {
+        format!(
+            "disc: {{ center: [{x}, {x}, 2], normal: [0, 0, {normal}], radius: 1, material: {material} }}"
+        )
+    };
+    let (away, towards) = (disc(0.0, 1.0, "lamp"), disc(0.0, -1.0, "lamp"));
+    assert_eq!(warned(ABOVE, &[FLOOR, &towards], 3), []);
+    assert_eq!(warned(ABOVE, &[&away, FLOOR], 1), []);
+    let below = "{ perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } }";
+    assert_eq!(warned(below, &[FLOOR, &away], 2), [("QRT0221", 7)]);
+    // Squares of half side 1 overlap up to 2 units apart along both axes, circles up to 1.42.
+    for (x, expected) in [(1.3, &[("QRT0222", 8)][..]), (1.5, &[]), (1.99, &[])] {
+        let list = [FLOOR, &away, &disc(x, -1.0, "lamp")];
+        assert_eq!(warned(ABOVE, &list, 3), expected, "{x}");
+    }
+}
+
+#[test]
+fn a_disc_that_shines_away_is_to_be_turned_by_its_normal() {
+    let text = "name: notes
+camera: { perspective: { eye: [0, 0, 1], target: [0, 0, 0], vfov: 40 } }
+film: { width: 4, height: 4 }
+materials: { grey: { lambertian: { albedo: 0.5 } }, lamp: { emitter: { radiance: 1 } } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: grey }
+  - disc: { center: [0, 0, 2], normal: [0, 0, 1], radius: 1, material: lamp }
+sampling: { path_bits: 4, depths: 2 }
+";
+    let loaded = parse(text, "notes.yaml", &[], "".as_ref()).unwrap();
+    let report = loaded.warnings().unwrap().render(false);
+    assert!(report.contains("write the opposite `normal`"), "{report}");
+}
+
+/// Glass discs on one plane touch if their circles do.
+#[test]
+fn discs_of_glass_touch_where_their_circles_do() {
+    let codes = |x: f64| {
+        let text = format!(
+            "name: glass
+camera: {{ perspective: {{ eye: [0, 0, 5], target: [0, 0, 0], vfov: 40 }} }}
+film: {{ width: 4, height: 4 }}
+sky: {{ radiance: 1 }}
+materials: {{ glass: {{ dielectric: {{ ior: 1.5 }} }} }}
+geometry:
+  - disc: {{ center: [0, 0, 0], normal: [0, 0, 1], radius: 1, material: glass }}
+  - disc: {{ center: [{x}, {x}, 0], normal: [0, 0, 1], radius: 1, material: glass }}
+sampling: {{ path_bits: 4, depths: 4 }}
+"
+        );
+        match parse(&text, "glass.yaml", &[], "".as_ref()) {
+            Ok(_) => Vec::new(),
+            Err(report) => report.codes(),
+        }
+    };
+    assert_eq!(codes(1.3), ["QRT0309"]);
+    assert!(codes(1.5).is_empty());
+}
