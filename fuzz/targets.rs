@@ -121,10 +121,10 @@ pub(crate) fn expression(data: &[u8]) {
         let _ = expression.diff(variable);
     }
     let range = expression.range(&Domain::default());
-    for [u, v, cos_i, cos_o, cos_a] in [
-        [0.5, 0.5, 0.5, 0.5, 0.5],
-        [0.1, 0.9, 0.25, 1.0, -1.0],
-        [0.999, 0.001, 1.0, 0.001, 0.7],
+    for ([u, v, cos_i, cos_o, cos_a], [x, y, z]) in [
+        ([0.5, 0.5, 0.5, 0.5, 0.5], [0.0, 1.0, -1.0]),
+        ([0.1, 0.9, 0.25, 1.0, -1.0], [1e-6, 1e6, 0.5]),
+        ([0.999, 0.001, 1.0, 0.001, 0.7], [-3.0, 0.1, 100.0]),
     ] {
         let at = Variables {
             u,
@@ -132,6 +132,9 @@ pub(crate) fn expression(data: &[u8]) {
             cos_i,
             cos_o,
             cos_a,
+            x,
+            y,
+            z,
         };
         let value = expression.eval(&at);
         assert_eq!(printed.eval(&at).to_bits(), value.to_bits(), "{expression}");

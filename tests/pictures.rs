@@ -20,6 +20,7 @@ mod pictures {
     mod metals;
     mod one_run_colour;
     mod own_estimators;
+    mod patterns;
     mod physics;
     mod references;
     mod same_picture;

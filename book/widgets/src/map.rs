@@ -98,7 +98,7 @@ fn own(text: &str) -> Result<Box<[Expr; 3]>, String> {
         value: vec!["0".to_owned()],
         pdf: None,
     };
-    match bsdf::compile(&bsdf) {
+    match bsdf::compile(&bsdf, &bsdf::Faces::NONE) {
         Ok(compiled) => Ok(Box::new(compiled.map)),
         Err(problems) => {
             let told: Vec<String> = problems.iter().map(|p| message(&bsdf.map, p)).collect();

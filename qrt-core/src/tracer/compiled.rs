@@ -20,16 +20,15 @@ enum Step {
     Node(ExprNode, [usize; 4], f64),
 }
 
-/// Expressions in `u`, `v` and angles, compiled together for one depth.
+/// Expressions in `u`, `v`, angles and the point that is hit, compiled together for one depth.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled {
     steps: Vec<Step>,
     roots: Vec<usize>,
 }
 
-/// The angles that an expression may read, by their names in it.
+/// The angles that an expression may read, by their names in it, and the point that is hit.
 #[derive(Clone, Copy)]
-#[allow(clippy::struct_field_names)]
 pub(crate) struct Angles<R> {
     /// `|n.i|`, of the sampled direction.
     pub(crate) cos_i: R,
@@ -37,24 +36,29 @@ pub(crate) struct Angles<R> {
     pub(crate) cos_o: R,
     /// `i.mirror(o)`
     pub(crate) cos_a: R,
+    /// The point, in stage units: not read unless a value reads it.
+    pub(crate) point: [R; 3],
 }
 
 struct Compiler {
+    on: Domain,
     bits: [u32; 2],
     most_stored: u32,
     steps: Vec<Step>,
 }
 
 impl Compiled {
-    /// Compiles `expressions` for coordinates of `bits` bits. Tables of at most `most_stored` index bits
-    /// are stored. If `cos_i` is given, it is `phi_z`, whose absolute value replaces the variable;
-    /// otherwise that is an angle.
+    /// Compiles `expressions` for coordinates of `bits` bits, on the domain `on` of the other variables.
+    /// Tables of at most `most_stored` index bits are stored. If `cos_i` is given, it is `phi_z`, whose
+    /// absolute value replaces the variable; otherwise that is an angle.
     pub(crate) fn new(
         expressions: &[&Expr],
         (bits, most_stored): ([u32; 2], u32),
         cos_i: Option<&Expr>,
+        on: Domain,
     ) -> Self {
         let mut compiler = Compiler {
+            on,
             bits,
             most_stored,
             steps: Vec::new(),
@@ -104,6 +108,7 @@ impl Compiled {
             cos_i: zero,
             cos_o: zero,
             cos_a: zero,
+            point: [zero; 3],
         });
         for (number, step) in self.steps.iter().enumerate() {
             let (node, [a, b, x, y], most) = match step {
@@ -118,6 +123,9 @@ impl Compiled {
                 ExprNode::Number(value) => cx.real(*value),
                 ExprNode::Variable(Variable::CosO) => angles.cos_o,
                 ExprNode::Variable(Variable::CosI) => angles.cos_i,
+                ExprNode::Variable(Variable::X) => angles.point[0],
+                ExprNode::Variable(Variable::Y) => angles.point[1],
+                ExprNode::Variable(Variable::Z) => angles.point[2],
                 // `u` and `v` are tables, so they do not occur here.
                 ExprNode::Variable(Variable::CosA | Variable::U | Variable::V) => angles.cos_a,
                 ExprNode::Add(..) => cx.add(values[a], values[b]),
@@ -246,7 +254,7 @@ impl Compiler {
         Domain {
             u: cells(self.bits[0]),
             v: cells(self.bits[1]),
-            ..Domain::default()
+            ..self.on
         }
     }
 

@@ -102,6 +102,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             front: alive,
             surface,
             tint: surface,
+            point: None,
             alive,
         };
         let emits = if counts {
@@ -176,9 +177,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
                 from: cx.entry(&stage.geometry.plane_of, hit.face),
             };
             vertex.stand(&frame);
-            if let Some(checkers) = &stage.checkers {
-                vertex.tint = checkers.row(cx, &leaves.origin, hit.face, surface);
-            }
+            stage.place(cx, &mut vertex, &leaves.origin, hit.face);
             cx.leave();
             let light = cx.apart(Lighting {
                 lights,
@@ -202,20 +201,20 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
             None => frame(cx, stage, hit.face, round.as_ref(), &vertex),
         };
         vertex.stand(&frame);
-        let pattern = stage.checkers.as_ref().filter(|_| known.is_none());
+        let is_placed = known.is_some() || !stage.places_vertices();
         let origin = if cx.recomputes() {
             // The start is a part of its own, after which the previous ray is no longer needed.
             let origin = start(cx, &ray, hit.distance, &frame);
             cx.leave();
             cx.enter(TracerPart::GenerateRay(depth + 1));
             Some(origin)
-        } else if pattern.is_some() {
-            Some(start(cx, &ray, hit.distance, &frame))
-        } else {
+        } else if is_placed {
             None
+        } else {
+            Some(start(cx, &ray, hit.distance, &frame))
         };
-        if let (Some(checkers), Some(origin)) = (pattern, &origin) {
-            vertex.tint = checkers.row(cx, origin, hit.face, surface);
+        if let Some(origin) = origin.as_ref().filter(|_| !is_placed) {
+            stage.place(cx, &mut vertex, origin, hit.face);
         }
         let at = &vertex;
         let scattered = cx.apart(Scattering { scatter, at });
@@ -248,6 +247,28 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         cx.leave();
     }
     colour
+}
+
+impl<const C: usize> Stage<C> {
+    /// True if a surface's colour or value depends on the point that is hit.
+    fn places_vertices(&self) -> bool {
+        self.checkers.is_some() || self.reads_point
+    }
+
+    /// Sets what depends on the point `origin` at which a path leaves `face`.
+    #[inline(always)]
+    fn place<A: Arith>(
+        &self,
+        cx: &mut A,
+        vertex: &mut Vertex<A>,
+        origin: &Vector<A>,
+        face: A::Index,
+    ) {
+        if let Some(checkers) = &self.checkers {
+            vertex.tint = checkers.row(cx, origin, face, vertex.surface);
+        }
+        vertex.point = self.reads_point.then_some(*origin);
+    }
 }
 
 /// The row of [`Stage::frames`] of a hit, at a vertex with its final normal. On a sphere or a smooth face

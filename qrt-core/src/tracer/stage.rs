@@ -48,6 +48,8 @@ pub struct Stage<const C: usize> {
     pub(crate) smooth: Option<SmoothStage>,
     /// The choice among the colours of surfaces that have two.
     pub(crate) checkers: Option<Checkers>,
+    /// True if a surface's value reads the point that is hit.
+    pub(crate) reads_point: bool,
     pub(crate) emitters: Emitters<C>,
     /// The light of directions in which nothing stands.
     pub(crate) sky: Option<SkyStage<C>>,
@@ -111,6 +113,10 @@ impl<const C: usize> Stage<C> {
         let surface_of: Vec<u32> = written_surfaces.map(|s| place[s as usize]).collect();
         let checked: Vec<_> = surfaces.iter().map(|surface| surface.checker()).collect();
         let checkers = Checkers::new(&geometry, scene.polygons(), &surface_of, &checked);
+        let reads_point = surfaces.iter().any(|surface| match &surface.scatter {
+            Scatter::Custom(bsdf) => bsdf.reads_point(),
+            _ => false,
+        });
         let emitters = Emitters::new(&surfaces, channels);
         let sky = written
             .sky
@@ -146,7 +152,7 @@ impl<const C: usize> Stage<C> {
                 scatters[other].at_depth(depth)
             } else {
                 let square = (written.bits, written.map);
-                ScatterStage::new(&surfaces, channels, depth, square, squares)
+                ScatterStage::new(&surfaces, channels, depth, square, squares, &geometry)
             };
             if let (Some(lamps), Some(bits)) = (&lamps, sampling.light(depth)) {
                 let asked = LightSampling {
@@ -217,6 +223,7 @@ impl<const C: usize> Stage<C> {
             balls,
             smooth,
             checkers,
+            reads_point,
             emitters,
             every_hit: sky.is_some(),
             sky,

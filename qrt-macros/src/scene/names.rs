@@ -79,7 +79,11 @@ impl Names {
         } else {
             "a constant"
         };
-        let reserved = Variable::ALL.iter().any(|variable| variable.name() == text)
+        // `y` and `z` may be names of an author: in a value they then stand for the author's number.
+        let variables = Variable::ALL
+            .iter()
+            .filter(|v| !Variable::POINT.contains(v));
+        let reserved = variables.map(|v| v.name()).any(|name| name == text)
             || function_names().any(|name| name == text)
             || matches!(text, "pi" | "rgb" | "auto" | "x");
         if let Some(first) = self.0.iter().find(|name| name.text == text) {

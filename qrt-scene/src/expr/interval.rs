@@ -23,19 +23,29 @@ pub struct Domain {
     pub cos_i: Interval,
     pub cos_o: Interval,
     pub cos_a: Interval,
+    pub x: Interval,
+    pub y: Interval,
+    pub z: Interval,
 }
 
 impl Default for Domain {
-    /// The whole domain: u, v, cos_i, cos_o in [0, 1] and cos_a in [-1, 1].
+    /// The whole domain: u, v, cos_i, cos_o in [0, 1], cos_a in [-1, 1], and all points.
     fn default() -> Self {
         let unit = Interval { lo: 0.0, hi: 1.0 };
         let cos_a = Interval { lo: -1.0, hi: 1.0 };
+        let any = Interval {
+            lo: f64::NEG_INFINITY,
+            hi: f64::INFINITY,
+        };
         Self {
             u: unit,
             v: unit,
             cos_i: unit,
             cos_o: unit,
             cos_a,
+            x: any,
+            y: any,
+            z: any,
         }
     }
 }
@@ -49,6 +59,9 @@ impl Domain {
             Variable::CosI => self.cos_i,
             Variable::CosO => self.cos_o,
             Variable::CosA => self.cos_a,
+            Variable::X => self.x,
+            Variable::Y => self.y,
+            Variable::Z => self.z,
         }
     }
 
@@ -60,6 +73,9 @@ impl Domain {
             Variable::CosI => &mut self.cos_i,
             Variable::CosO => &mut self.cos_o,
             Variable::CosA => &mut self.cos_a,
+            Variable::X => &mut self.x,
+            Variable::Y => &mut self.y,
+            Variable::Z => &mut self.z,
         }
     }
 }

@@ -68,11 +68,28 @@ pub enum Variable {
     CosO,
     /// `cos_a` = i . mirror(o), of the angle to the mirror direction, in [-1, 1].
     CosA,
+    /// `x`, the first coordinate of the point that is hit, in units of the scene.
+    X,
+    /// `y`, the second coordinate.
+    Y,
+    /// `z`, the third coordinate.
+    Z,
 }
 
 impl Variable {
     /// All variables, in the order of their definition.
-    pub const ALL: [Self; 5] = [Self::U, Self::V, Self::CosI, Self::CosO, Self::CosA];
+    pub const ALL: [Self; 8] = [
+        Self::U,
+        Self::V,
+        Self::CosI,
+        Self::CosO,
+        Self::CosA,
+        Self::X,
+        Self::Y,
+        Self::Z,
+    ];
+    /// The coordinates of the point that is hit.
+    pub const POINT: [Self; 3] = [Self::X, Self::Y, Self::Z];
     /// The variables of a density of directions.
     pub(crate) const ANGLES: [Self; 3] = [Self::CosI, Self::CosO, Self::CosA];
     /// The variables of a map or a Jacobian.
@@ -86,6 +103,9 @@ impl Variable {
             Self::CosI => "cos_i",
             Self::CosO => "cos_o",
             Self::CosA => "cos_a",
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
         }
     }
 }
@@ -103,6 +123,10 @@ impl VariableSet {
     /// The set that holds `variable` alone.
     pub(crate) fn from_variable(variable: Variable) -> Self {
         Self(1 << variable as u8)
+    }
+    /// True if the set holds any of `variables`.
+    pub fn has_any(self, variables: &[Variable]) -> bool {
+        variables.iter().any(|variable| self.contains(*variable))
     }
     /// True if the set holds `variable`.
     pub fn contains(self, variable: Variable) -> bool {
@@ -135,6 +159,9 @@ pub struct Variables {
     pub cos_i: f64,
     pub cos_o: f64,
     pub cos_a: f64,
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
 }
 
 impl Variables {
@@ -146,6 +173,9 @@ impl Variables {
             Variable::CosI => self.cos_i,
             Variable::CosO => self.cos_o,
             Variable::CosA => self.cos_a,
+            Variable::X => self.x,
+            Variable::Y => self.y,
+            Variable::Z => self.z,
         }
     }
 }

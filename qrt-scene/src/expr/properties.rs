@@ -11,6 +11,9 @@ fn formula() -> impl Strategy<Value = String> {
         4 => Just("u".to_owned()),
         4 => Just("v".to_owned()),
         1 => Just("cos_o".to_owned()),
+        1 => Just("x".to_owned()),
+        1 => Just("y".to_owned()),
+        1 => Just("z".to_owned()),
         2 => Just("cos_a".to_owned()),
         1 => Just("pi".to_owned()),
         2 => (1..5).prop_map(|n: i32| n.to_string()),
@@ -36,15 +39,19 @@ fn formula() -> impl Strategy<Value = String> {
 }
 
 fn point() -> impl Strategy<Value = Variables> {
-    (0.01..0.99, 0.01..0.99, 0.01..0.99, 0.01..0.99, -0.99..0.99).prop_map(
-        |(u, v, cos_i, cos_o, cos_a)| Variables {
-            u,
-            v,
-            cos_i,
-            cos_o,
-            cos_a,
-        },
-    )
+    let square = (0.01..0.99, 0.01..0.99);
+    let angles = (0.01..0.99, 0.01..0.99, -0.99..0.99);
+    let point = (-3.0..3.0, -0.1..0.1, 10.0..20.0);
+    (square, angles, point).prop_map(|((u, v), (cos_i, cos_o, cos_a), (x, y, z))| Variables {
+        u,
+        v,
+        cos_i,
+        cos_o,
+        cos_a,
+        x,
+        y,
+        z,
+    })
 }
 
 /// Runs `test` on random formulas at random points. `test` returns true for a conclusive case, and
@@ -209,12 +216,12 @@ fn bounds_hold_every_value() {
                 *domain.get_mut(variable) = part;
             }
             let range = e.range(&domain);
-            // Corners, the point itself and the middle.
-            for corner in 0..34_u32 {
+            // A quarter of the corners, the point itself and the middle.
+            for corner in 0..66_u32 {
                 let mut inside = *at;
-                if corner < 32 {
+                if corner < 64 {
                     let pick = |i: u32, part: Interval| {
-                        if corner >> i & 1 == 0 {
+                        if (37 * corner) >> i & 1 == 0 {
                             part.lo
                         } else {
                             part.hi
@@ -226,8 +233,11 @@ fn bounds_hold_every_value() {
                         cos_i: pick(2, domain.cos_i),
                         cos_o: pick(3, domain.cos_o),
                         cos_a: pick(4, domain.cos_a),
+                        x: pick(5, domain.x),
+                        y: pick(6, domain.y),
+                        z: pick(7, domain.z),
                     };
-                } else if corner == 32 {
+                } else if corner == 64 {
                     let middle = |part: Interval| part.lo + (part.hi - part.lo) / 2.0;
                     inside.u = middle(domain.u);
                     inside.v = middle(domain.v);

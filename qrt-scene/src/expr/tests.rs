@@ -15,6 +15,7 @@ fn value(text: &str) -> f64 {
         cos_i: 0.5,
         cos_o: 0.125,
         cos_a: -0.5,
+        ..Variables::default()
     };
     read(text).eval(&at)
 }

@@ -292,8 +292,8 @@ record! {
     pub map: [String; 3] = Array::<_, 3>(Expression);
     /// `auto` (differentiated), or an expression in u, v that is then checked.
     pub jacobian: Jacobian = finalize::JacobianShape, or Jacobian::Auto;
-    /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v: one expression (grey) or three
-    /// (red, green, blue).
+    /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v, and the point x, y, z that is hit, in
+    /// units of the scene: one expression (grey) or three (red, green, blue).
     pub value: Vec<String> = Channels;
     /// The density of the map's directions, per steradian, in cos_i, cos_o, cos_a: 1 over the
     /// Jacobian, which is checked. With it, lamps can be sampled from here.

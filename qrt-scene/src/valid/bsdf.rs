@@ -6,11 +6,12 @@
 //!
 //! `W = f |phi_z| J`, `J = |dphi/du x dphi/dv|`,
 //!
-//! see [`crate::sampling::maps`]. The checks sample a fixed set of points of the open square. The
-//! bound of the weight is proven by interval arithmetic.
+//! see [`crate::sampling::maps`]. The checks sample a fixed set of points of the open square, and some
+//! points of the faces where the value depends on the point that is hit. The bound of the weight is
+//! proven by interval arithmetic, over the box of the faces.
 
 use super::CustomBsdf;
-use crate::expr::{Expr, Variable, Variables};
+use crate::expr::{Domain, Expr, Variable, Variables};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
 use crate::syntax::{Bsdf as Fault, Path, Problem};
@@ -21,13 +22,19 @@ mod bound;
 mod coverage;
 mod light;
 mod pdf;
+mod points;
 mod reciprocity;
 mod shape;
 #[cfg(test)]
 mod tests;
 mod undefined;
 
-/// Reads and checks a BSDF. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
+pub(in crate::valid) use points::reads_point;
+pub use points::{Extent, Faces};
+use points::{Hit, hits};
+
+/// Reads and checks a BSDF of `faces`, at whose points a value is checked that reads the point that is
+/// hit. Paths of problems are relative to it: `map[0]`, `jacobian`, `value[2]`.
 ///
 /// Codes: those of [`Expr::parse`] for each formula, and `QRT0410` not one or three values,
 /// `QRT0411` a map that leaves the unit sphere, `QRT0412` a map or a derivative without a finite
@@ -36,8 +43,8 @@ mod undefined;
 /// gains energy, `QRT0418` a weight without a bound, `QRT0419` a map that reaches directions more
 /// than once, `QRT0420` a density that is not the map's, `QRT0421` a map that leaves out directions
 /// that the value reflects to.
-pub fn compile(bsdf: &Bsdf) -> Result<CustomBsdf, Vec<Problem>> {
-    compile_with(bsdf, &mut KnownMap::default())
+pub fn compile(bsdf: &Bsdf, faces: &Faces) -> Result<CustomBsdf, Vec<Problem>> {
+    compile_with(bsdf, faces, &mut KnownMap::default())
 }
 
 /// Minimum work of checking one BSDF, in evaluated nodes of expressions: 0.5 ms.
@@ -61,10 +68,15 @@ pub(super) fn minutes(bsdf: &Bsdf, last: Option<&Bsdf>) -> f64 {
         text if text.contains(Variable::CosO.name()) => 19,
         _ => 1,
     };
+    let hits = if reads_point(bsdf) {
+        points::MOST as u64
+    } else {
+        1
+    };
     let values = bsdf
         .value
         .iter()
-        .map(|text| nodes(text) * viewers(text) * VALUES);
+        .map(|text| nodes(text) * viewers(text) * VALUES * hits);
     let known = last.is_some_and(|last| last.map == bsdf.map);
     let maps = bsdf.map.iter().filter(|_| !known);
     let maps = maps.map(|text| nodes(text) * MAPPED);
@@ -96,7 +108,8 @@ impl MapChecks {
         let projected_jacobian = match problem {
             None => {
                 let plain = maps::projected_jacobian(map);
-                let bounded = |weight: &Expr| bound::supremum(weight).is_finite();
+                let square = Domain::default();
+                let bounded = |weight: &Expr| bound::supremum(weight, &square).is_finite();
                 let other = (!bounded(&plain)).then(|| maps::projected_jacobian_by_azimuth(map));
                 other.filter(bounded).unwrap_or(plain)
             }
@@ -135,7 +148,11 @@ impl KnownMap {
 }
 
 /// Compiles as [`compile`] does, with the cached checks of the previous BSDF's map.
-pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBsdf, Vec<Problem>> {
+pub(super) fn compile_with(
+    bsdf: &Bsdf,
+    faces: &Faces,
+    known: &mut KnownMap,
+) -> Result<CustomBsdf, Vec<Problem>> {
     let mut problems = Vec::new();
     let root = Path::root();
     let mut read = |text: &str, path: &Path, allowed: &[Variable]| {
@@ -184,30 +201,20 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
         }
     };
     let values: Vec<Expr> = values.into_iter().flatten().collect();
-    let value = |i: usize| root.key("value").item(i);
     let before = problems.len();
-    for (i, f) in values.iter().enumerate() {
-        problems.extend(light::value(checks.directions(&map), f, &value(i)));
-    }
+    let hits = hits(&values, faces);
     let mut covers_wrong = false;
-    if problems.len() == before {
-        let wrong = coverage::check(&map, by_map, &checks.cells, &values);
-        covers_wrong = wrong.is_some();
-        problems.extend(wrong);
-    }
-    if problems.len() == before {
-        // A map with wrong coverage would falsify the energy, so the energy is not checked then.
-        // The map's own Jacobian is used here, since a stated one may be wrong.
-        let quadrature = &checks.quadrature;
-        for (i, f) in values.iter().enumerate() {
-            problems.extend(quadrature.energy((&map, by_map), f, &value(i)));
+    for hit in &hits {
+        covers_wrong = check_values(&map, &checks, hit, &mut problems);
+        if problems.len() > before {
+            break;
         }
     }
     let pdf = match pdf {
         Some(None) => return Err(problems),
         Some(Some(pdf)) => {
             if !covers_wrong {
-                problems.extend(pdf::check(&map, &values, &pdf));
+                problems.extend(pdf::check(&map, &hits[0].values, &pdf));
             }
             Some(pdf.simplify())
         }
@@ -221,7 +228,7 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
     if !problems.is_empty() {
         return Err(problems);
     }
-    let weight_bound = weight_bound(&map, &projected_jacobian, &value);
+    let weight_bound = weight_bound((&map, &projected_jacobian), &value, faces.extent);
     for (i, bound) in weight_bound.iter().enumerate().take(values.len()) {
         if !bound.is_finite() {
             let path = root.key("value").item(i);
@@ -232,7 +239,7 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
         // Clamp a value that may be negative, by rounding or at points that the check has missed.
         let value = value.map(|f| {
             let f = f.simplify();
-            if bound::may_be_negative(&f) {
+            if bound::may_be_negative(&f, &faces.extent.domain()) {
                 f.positive().simplify()
             } else {
                 f
@@ -244,17 +251,51 @@ pub(super) fn compile_with(bsdf: &Bsdf, known: &mut KnownMap) -> Result<CustomBs
             value,
             weight_bound,
             pdf,
+            extent: faces.extent,
         })
     } else {
         Err(problems)
     }
 }
 
+/// Checks the values that a BSDF has at one point that is hit. Returns true if the map covers directions
+/// wrongly.
+fn check_values(
+    map: &[Expr; 3],
+    checks: &MapChecks,
+    hit: &Hit,
+    problems: &mut Vec<Problem>,
+) -> bool {
+    let by_map = &checks.projected_jacobian;
+    let path = |i: usize| Path::root().key("value").item(i);
+    let placed = |problem: Problem| hit.placed(problem);
+    let before = problems.len();
+    for (i, f) in hit.values.iter().enumerate() {
+        problems.extend(light::value(checks.directions(map), f, &path(i)).map(placed));
+    }
+    if problems.len() > before {
+        return false;
+    }
+    if let Some(wrong) = coverage::check(map, by_map, &checks.cells, &hit.values) {
+        problems.push(wrong);
+        return true;
+    }
+    // A map with wrong coverage would falsify the energy, so the energy is not checked then.
+    // The map's own Jacobian is used here, since a stated one may be wrong.
+    let quadrature = &checks.quadrature;
+    for (i, f) in hit.values.iter().enumerate() {
+        problems.extend(quadrature.energy((map, by_map), f, &path(i)).map(placed));
+    }
+    false
+}
+
 /// Returns warnings about the values of a BSDF, which are not errors but probably unintended:
 /// `QRT0422` a value that is not reciprocal. Paths are relative to the BSDF.
-pub fn warnings(values: &[Expr]) -> Vec<Problem> {
+pub fn warnings(values: &[Expr], faces: &Faces) -> Vec<Problem> {
     let path = Path::root().key("value");
-    let found = values
+    let hits = hits(values, faces);
+    let found = hits[0]
+        .values
         .iter()
         .enumerate()
         .filter_map(|(i, f)| reciprocity::check(f, &path.item(i)));
@@ -262,17 +303,23 @@ pub fn warnings(values: &[Expr]) -> Vec<Problem> {
 }
 
 /// An upper bound, per channel, of `value * projected_jacobian` over u and v in (0, 1), cos_o in
-/// [0, 1] and cos_a in [-1, 1], with cos_i = |phi_z|: infinite if none can be shown.
+/// [0, 1], cos_a in [-1, 1] and points of `extent`, with cos_i = |phi_z|: infinite if none can be
+/// shown.
 ///
 /// The bound is proven up to rounding of the weight itself, for which a relative 1e-9 is added. Use
 /// it also if a scene replaces a BSDF's own map.
-pub fn weight_bound(map: &[Expr; 3], projected_jacobian: &Expr, value: &[Expr; 3]) -> Rgb {
+pub fn weight_bound(
+    (map, projected_jacobian): (&[Expr; 3], &Expr),
+    value: &[Expr; 3],
+    extent: Extent,
+) -> Rgb {
+    let domain = extent.domain();
     let mut bounds: Rgb = [0.0; 3];
     for i in 0..3 {
         bounds[i] = if let Some(same) = (0..i).find(|j| value[*j] == value[i]) {
             bounds[same]
         } else {
-            bound::supremum(&weight(map, projected_jacobian, &value[i]))
+            bound::supremum(&weight(map, projected_jacobian, &value[i]), &domain)
         };
     }
     bounds

@@ -12,6 +12,7 @@ use crate::syntax::{
     Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
     Structure, Triangles, nearest,
 };
+use crate::valid::bsdf::Faces;
 use crate::valid::{Ball, Polygon, Scatter, SmoothFace, Surface, simple};
 use glam::{BVec3, DVec3};
 use std::borrow::Cow;
@@ -54,6 +55,15 @@ pub(super) struct Shapes {
     pub(super) firsts: Vec<usize>,
     /// The files that were read for them, each once.
     pub(super) files: Vec<PathBuf>,
+}
+
+impl Shapes {
+    /// The faces of a surface.
+    pub(super) fn faces(&self, surface: u32) -> Faces {
+        let polygons = self.polygons.iter().filter(|face| face.surface == surface);
+        let balls = self.balls.iter().filter(|face| face.surface == surface);
+        Faces::new(&polygons.collect::<Vec<_>>(), &balls.collect::<Vec<_>>())
+    }
 }
 
 pub(super) fn polygons(
@@ -259,6 +269,14 @@ impl<'a> Build<'a> {
         None
     }
 
+    /// True if nothing leaves surface number `surface`. User-defined BSDFs are not compiled yet.
+    fn is_black(&self, surface: usize) -> bool {
+        let own = self.scene.materials.get(surface);
+        let is_custom = matches!(own, Some((_, Material::Bsdf(_))));
+        let known = self.surfaces.get(surface);
+        !is_custom && known.is_some_and(|known| matches!(known.scatter, Scatter::Black))
+    }
+
     /// Adds a sphere, unless there is one in its place: the first of several hides the others.
     fn ball(
         &mut self,
@@ -417,8 +435,7 @@ impl<'a> Build<'a> {
             } else if triangle_fault(&vertices).is_some() {
                 flat.push(index);
             } else {
-                let known = self.surfaces.get(surface as usize);
-                let is_black = known.is_some_and(|s| matches!(s.scatter, Scatter::Black));
+                let is_black = self.is_black(surface as usize);
                 if let Some(normals) = normals.get(index).filter(|_| !is_black) {
                     let turned = normals.map(|normal| transform.turn(normal));
                     let normals = shading_normals(&vertices, turned);

@@ -20,7 +20,7 @@ pub use counting::most_strata;
 pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
-use crate::expr::Expr;
+use crate::expr::{Expr, Variable};
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
@@ -127,12 +127,22 @@ pub struct CustomBsdf {
     /// The factor `J |phi_z|`, in `u`, `v`, that turns `value` into the weight `f |n.i| J`. With
     /// `jacobian: auto` it equals `|x_u y_v - x_v y_u|`, simplified so that common factors cancel.
     pub projected_jacobian: Expr,
-    /// f, per channel, in `cos_i`, `cos_o`, `cos_a`, `u`, `v`.
+    /// f, per channel, in `cos_i`, `cos_o`, `cos_a`, `u`, `v`, and the point that is hit, `x`, `y`, `z`.
     pub value: [Expr; 3],
     /// An upper bound, per channel, of the weight `value * projected_jacobian` over its domain.
     pub weight_bound: Rgb,
     /// The density of the map's directions, in `cos_i`, `cos_o`, `cos_a`, if it is stated.
     pub pdf: Option<Expr>,
+    /// The box of the faces that have the BSDF, for a value that reads the point that is hit.
+    pub extent: bsdf::Extent,
+}
+
+impl CustomBsdf {
+    /// True if the value depends on the point that is hit.
+    pub fn reads_point(&self) -> bool {
+        let mut values = self.value.iter();
+        values.any(|value| value.variables(value.root()).has_any(&Variable::POINT))
+    }
 }
 
 /// A triangle, a planar convex quadrilateral or a disc in world space.
@@ -387,8 +397,15 @@ pub(crate) fn check(
     sampling::check(&scene, &mut problems);
     counting::check(&scene, &mut problems);
     let mut warnings = Vec::new();
-    let mut materials = surfaces(&scene, &mut problems, &mut warnings);
+    let mut materials = surfaces(&scene, &mut problems);
     let shapes = geometry::polygons(&scene, meshes, &mut materials, &mut problems, &mut warnings);
+    customs(
+        &scene,
+        &shapes,
+        &mut materials,
+        &mut problems,
+        &mut warnings,
+    );
     let geometry::Shapes {
         polygons,
         smooth,
@@ -418,35 +435,48 @@ pub(crate) fn check(
     problems.result(valid)
 }
 
-fn surfaces(scene: &Scene, problems: &mut Problems, warnings: &mut Vec<Problem>) -> Vec<Surface> {
+/// The surfaces of the scene's own materials. User-defined BSDFs are black until [`customs`] compiles them.
+fn surfaces(scene: &Scene, problems: &mut Problems) -> Vec<Surface> {
     let materials = Path::root().key("materials");
-    let (mut known, mut map) = (HashMap::new(), bsdf::KnownMap::default());
-    let too_many = too_many(scene, &materials);
-    let is_checked = too_many.is_none();
-    problems.extend(too_many);
-    let mut surfaces = Vec::with_capacity(scene.materials.len());
-    for (name, material) in &scene.materials {
-        let path = materials.key(name.as_str());
+    let surface = |(name, material): &(String, Material)| {
         if let Material::Phong(part) = material {
-            problems.extend(phong_energy(part, &path));
+            problems.extend(phong_energy(part, &materials.key(name.as_str())));
         }
-        let (radiance, scatter) = simple(material).unwrap_or_else(|part| {
-            let compile = || bsdf::compile_with(part, &mut map);
-            let scatter = if is_checked {
-                let compiled = known.entry(part).or_insert_with(compile);
-                custom(part, compiled, &path.key("bsdf"), problems, warnings)
-            } else {
-                Scatter::Black
-            };
-            ([0.0; 3], scatter)
-        });
-        surfaces.push(Surface {
+        let (radiance, scatter) = simple(material).unwrap_or(([0.0; 3], Scatter::Black));
+        Surface {
             name: name.clone(),
             radiance,
             scatter,
-        });
+        }
+    };
+    scene.materials.iter().map(surface).collect()
+}
+
+/// Compiles the user-defined BSDFs of `surfaces`, whose faces are `shapes`.
+fn customs(
+    scene: &Scene,
+    shapes: &geometry::Shapes,
+    surfaces: &mut [Surface],
+    problems: &mut Problems,
+    warnings: &mut Vec<Problem>,
+) {
+    let materials = Path::root().key("materials");
+    if let Some(too_many) = too_many(scene, &materials) {
+        return problems.push(too_many);
     }
-    surfaces
+    let (mut known, mut map) = (HashMap::new(), bsdf::KnownMap::default());
+    for (number, (name, material)) in scene.materials.iter().enumerate() {
+        let Material::Bsdf(part) = material else {
+            continue;
+        };
+        // Equal values have the same faults, unless they depend on where their faces are.
+        let own = bsdf::reads_point(part).then_some(number);
+        let faces = own.map_or(bsdf::Faces::NONE, |number| shapes.faces(number as u32));
+        let compile = || bsdf::compile_with(part, &faces, &mut map);
+        let compiled = known.entry((part, own)).or_insert_with(compile);
+        let path = materials.key(name.as_str()).key("bsdf");
+        surfaces[number].scatter = custom((part, compiled), &faces, &path, problems, warnings);
+    }
 }
 
 /// Returns the radiance and scattering of a material, or its user-defined BSDF, which has to be
@@ -516,8 +546,8 @@ fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
 }
 
 fn custom(
-    bsdf: &Bsdf,
-    compiled: &Result<CustomBsdf, Vec<Problem>>,
+    (bsdf, compiled): (&Bsdf, &Result<CustomBsdf, Vec<Problem>>),
+    faces: &bsdf::Faces,
     path: &Path,
     problems: &mut Problems,
     warnings: &mut Vec<Problem>,
@@ -526,7 +556,8 @@ fn custom(
     match compiled {
         Ok(compiled) => {
             let written = &compiled.value[..bsdf.value.len().min(3)];
-            warnings.extend(bsdf::warnings(written).into_iter().map(placed));
+            let found = bsdf::warnings(written, faces);
+            warnings.extend(found.into_iter().map(placed));
             Scatter::Custom(Box::new(compiled.clone()))
         }
         Err(found) => {

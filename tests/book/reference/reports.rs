@@ -190,7 +190,7 @@ sampling: { depths: [{ bits: [8, 8] }, { bits: [8, 8], light: [8, 8] }] }
         value: vec!["0.1".into(), "0.2".into()],
         pdf: None,
     };
-    let problems = bsdf::compile(&grey).unwrap_err();
+    let problems = bsdf::compile(&grey, &bsdf::Faces::NONE).unwrap_err();
     texts.extend(problems.into_iter().map(whole));
 
     // The file is sparse: it takes no disk space, and no time until it is read.

@@ -3,10 +3,10 @@
 
 use super::vertex::{Scattered, cos_to_mirror, to_scene};
 use super::{Sample, Square, Way};
-use crate::tracer::Arith;
 use crate::tracer::compiled::{Angles, Compiled};
 use crate::tracer::vector::{self, Vector};
-use qrt_scene::expr::{Expr, Variable};
+use crate::tracer::{Arith, StageGeometry};
+use qrt_scene::expr::{Domain, Expr, Interval, Variable};
 use qrt_scene::valid::CustomBsdf;
 use qrt_scene::valid::bsdf::weight_bound;
 use std::f64::consts::PI;
@@ -32,7 +32,12 @@ pub(super) struct CustomLobe<const C: usize> {
 const ROOTS: usize = 4;
 
 impl<const C: usize> CustomLobe<C> {
-    pub(super) fn new(bsdf: &CustomBsdf, channels: [usize; C], square: &Square) -> Self {
+    pub(super) fn new(
+        bsdf: &CustomBsdf,
+        channels: [usize; C],
+        square: &Square,
+        geometry: &StageGeometry,
+    ) -> Self {
         const { assert!(C < ROOTS) };
         let asks = |variables: [Variable; 2]| {
             let mut sets = bsdf.value.iter().map(|value| value.variables(value.root()));
@@ -42,23 +47,28 @@ impl<const C: usize> CustomLobe<C> {
         let replaced = square.map.replaces() && !asks(Variable::SQUARE);
         let (map, projected, bound) = if replaced {
             let (map, projected) = (&square.map.directions, &square.map.projected_jacobian);
-            (map, projected, weight_bound(map, projected, &bsdf.value))
+            let bound = weight_bound((map, projected), &bsdf.value, bsdf.extent);
+            (map, projected, bound)
         } else {
             (&bsdf.map, &bsdf.projected_jacobian, bsdf.weight_bound)
         };
         let density = bsdf.pdf.as_ref().filter(|_| !replaced);
         let pi = Expr::number(PI).filter(|_| replaced);
         let factor = pi.unwrap_or_else(|| Expr::variable(Variable::CosI));
-        let of_channels = |by: &Expr| channels.map(|c| (&bsdf.value[c] * by).simplify());
+        let staged = channels.map(|c| staged(&bsdf.value[c], geometry));
+        let of_channels = |by: &Expr| staged.each_ref().map(|value| (value * by).simplify());
+        let domain = staged_domain(bsdf, geometry);
         let (weights, towards) = (of_channels(projected), of_channels(&factor));
         let with_density = |values: &'_ [Expr; C], cos_i: Option<&Expr>| {
             let roots: Vec<&Expr> = values.iter().chain(density).collect();
-            Compiled::new(&roots, (square.bits, square.most_stored), cos_i)
+            Compiled::new(&roots, (square.bits, square.most_stored), cos_i, domain)
         };
         let [x, y, z] = map;
         Self {
-            direction: (!replaced)
-                .then(|| Compiled::new(&[x, y, z], (square.bits, square.most_stored), None)),
+            direction: (!replaced).then(|| {
+                let bits = (square.bits, square.most_stored);
+                Compiled::new(&[x, y, z], bits, None, Domain::default())
+            }),
             weight: with_density(&weights, Some(z)),
             towards: with_density(&towards, None),
             states_density: density.is_some(),
@@ -79,7 +89,7 @@ impl<const C: usize> CustomLobe<C> {
             Some(own) => own.evaluate(cx, depth, None),
             None => sample.mapped.direction,
         };
-        let angles = angles(cx, outgoing, &incoming);
+        let angles = angles(cx, outgoing, &incoming, sample.at.point);
         let values: [A::Real; ROOTS] = self.weight.evaluate(cx, depth, Some(angles));
         let direction = to_scene(cx, sample.at, &incoming);
         let density = if !sample.asks_for_density {
@@ -113,7 +123,7 @@ impl<const C: usize> CustomLobe<C> {
         outgoing: &Vector<A>,
         incoming: &Vector<A>,
     ) -> Option<A::Real> {
-        let angles = angles(cx, outgoing, incoming);
+        let angles = angles(cx, outgoing, incoming, None);
         let values: [A::Real; ROOTS] = self.towards.evaluate(cx, depth, Some(angles));
         self.states_density.then_some(values[C])
     }
@@ -121,7 +131,7 @@ impl<const C: usize> CustomLobe<C> {
     /// The part of a lamp's light that goes to the viewer.
     #[inline(always)]
     pub(super) fn light<A: Arith>(&self, cx: &mut A, depth: usize, way: &Way<A>) -> [A::Real; C] {
-        let angles = angles(cx, &way.outgoing, &way.incoming);
+        let angles = angles(cx, &way.outgoing, &way.incoming, way.point);
         let values: [A::Real; ROOTS] = self.towards.evaluate(cx, depth, Some(angles));
         let mut towards = channels(&values);
         if !self.states_density {
@@ -149,14 +159,48 @@ fn channels<R: Copy, const C: usize>(values: &[R; ROOTS]) -> [R; C] {
     channels
 }
 
-/// The angles between the viewer's direction and a sampled one.
+/// Returns a value in which the point that is hit is in stage units.
+fn staged(value: &Expr, geometry: &StageGeometry) -> Expr {
+    let unit = Expr::number(geometry.scale.recip());
+    let centre = geometry.centre.to_array().map(Expr::number);
+    let axes = Variable::POINT.into_iter().zip(centre);
+    axes.fold(value.clone(), |value, (axis, centre)| {
+        let (Some(unit), Some(centre)) = (&unit, centre) else {
+            return value;
+        };
+        let scaled = unit * &Expr::variable(axis);
+        value.substitute(axis, &(&centre + &scaled))
+    })
+}
+
+/// The domain of a staged value.
+fn staged_domain(bsdf: &CustomBsdf, geometry: &StageGeometry) -> Domain {
+    let mut domain = bsdf.extent.domain();
+    for (axis, variable) in Variable::POINT.into_iter().enumerate() {
+        let Interval { lo, hi } = domain.get(variable);
+        let staged = |at: f64| (at - geometry.centre[axis]) * geometry.scale;
+        *domain.get_mut(variable) = Interval {
+            lo: staged(lo),
+            hi: staged(hi),
+        };
+    }
+    domain
+}
+
+/// The angles between the viewer's direction and a sampled one, with the point that is hit.
 #[inline(always)]
-fn angles<A: Arith>(cx: &mut A, outgoing: &Vector<A>, incoming: &Vector<A>) -> Angles<A::Real> {
+fn angles<A: Arith>(
+    cx: &mut A,
+    outgoing: &Vector<A>,
+    incoming: &Vector<A>,
+    point: Option<Vector<A>>,
+) -> Angles<A::Real> {
     let cos_i = cx.abs(incoming[2]);
     let cos_a = cos_to_mirror(cx, incoming, outgoing);
     Angles {
         cos_i: cx.cosine(cos_i),
         cos_o: cx.cosine(outgoing[2]),
         cos_a: cx.cosine(cos_a),
+        point: point.unwrap_or_else(|| [cx.real(0.0); 3]),
     }
 }

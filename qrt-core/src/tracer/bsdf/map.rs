@@ -6,7 +6,7 @@ use crate::tracer::compiled::Compiled;
 use crate::tracer::sampled::TABLE_BITS;
 use crate::tracer::vector::Vector;
 use qrt_scene::Map;
-use qrt_scene::expr::Expr;
+use qrt_scene::expr::{Domain, Expr};
 use qrt_scene::sampling::maps;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -42,7 +42,12 @@ impl DepthMap {
         let [x, y, z] = &directions;
         Self {
             map,
-            compiled: Compiled::new(&[x, y, z, &factor], (bits, TABLE_BITS), None),
+            compiled: Compiled::new(
+                &[x, y, z, &factor],
+                (bits, TABLE_BITS),
+                None,
+                Domain::default(),
+            ),
             directions,
             projected_jacobian,
         }

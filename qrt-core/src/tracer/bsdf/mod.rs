@@ -23,7 +23,7 @@ pub(crate) use vertex::{SmoothHit, Vertex, members};
 use super::lights::{LightStage, Receiver, Towards};
 use super::sampled::TABLE_BITS;
 use super::vector::{self, Vector};
-use super::{Arith, Coordinate, Sampled, TracerPart, Work};
+use super::{Arith, Coordinate, Sampled, StageGeometry, TracerPart, Work};
 use custom::CustomLobe;
 use dielectric::DielectricLobe;
 use ggx::GgxLobe;
@@ -208,6 +208,7 @@ impl<const C: usize> ScatterStage<C> {
         depth: usize,
         (bits, map): ([u32; 2], Map),
         squares: usize,
+        geometry: &StageGeometry,
     ) -> Self {
         let tables: usize = surfaces
             .iter()
@@ -244,7 +245,9 @@ impl<const C: usize> ScatterStage<C> {
                 Scatter::Metal(metal) if metal.alpha == 0.0 => Lobe::Metal,
                 Scatter::Metal(_) => Lobe::Ggx(GgxLobe::new(surfaces, &square, true)),
                 Scatter::Phong(phong) => Lobe::Phong(PhongLobe::new(phong, pick, &square)),
-                Scatter::Custom(bsdf) => Lobe::Custom(CustomLobe::new(bsdf, channels, &square)),
+                Scatter::Custom(bsdf) => {
+                    Lobe::Custom(CustomLobe::new(bsdf, channels, &square, geometry))
+                }
             };
             lobes.push((number..number + 1, lobe));
         }
@@ -604,6 +607,8 @@ struct Way<A: Arith> {
     mapped: A::Real,
     /// The balance heuristic, by the depth's map.
     balance: A::Real,
+    /// The point that is lit.
+    point: Option<Vector<A>>,
 }
 
 impl<A: Arith> Way<A> {
@@ -628,6 +633,7 @@ impl<A: Arith> Way<A> {
             lamp,
             mapped: square.map.factor(cx, &incoming),
             balance: LightStage::<1>::balance(cx, density, lamp),
+            point: at.point,
             incoming,
         }
     }

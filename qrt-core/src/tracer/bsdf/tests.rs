@@ -56,6 +56,7 @@ sampling: {{ depths: [{{ bits: [0, 0] }}, {{ bits: [{bits}, {bits}], map: {map} 
             front: arriving[2] < 0.0,
             surface: 0,
             tint: 0,
+            point: None,
             alive: true,
         };
         let scattered = self.stage.scatters[0].scatter(&mut Scalar::at(cell), &vertex);

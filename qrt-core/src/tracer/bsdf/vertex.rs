@@ -20,6 +20,8 @@ pub(crate) struct Vertex<A: Arith> {
     pub(crate) surface: A::Index,
     /// The row of the surface's colour: its number, or the row of its second colour.
     pub(crate) tint: A::Index,
+    /// The point, in a scene of which a surface reads it.
+    pub(crate) point: Option<Vector<A>>,
     /// True for paths that have not ended.
     pub(crate) alive: A::Bool,
 }

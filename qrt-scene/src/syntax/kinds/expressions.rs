@@ -109,10 +109,11 @@ problems! {
               format!("a part of this{part} {what} at {}", situation(at)) }
             help "every part must be finite, also where the rest makes a finite number of it: no register \
                   holds an infinity";
-        GainsEnergy { albedo: f64, seen: Option<f64> } = BSDF_ENERGY
-            { let seen = seen.map_or_else(String::new, |cos_o| {
-                format!(", seen at cos_o = {}", rounded(cos_o))
-              });
+        GainsEnergy { albedo: f64, at: Variables } = BSDF_ENERGY
+            { let seen = match &at[..] {
+                [] => String::new(),
+                at => format!(", seen at {}", situation(at)),
+              };
               format!("the BSDF gains energy: {} of the light that arrives leaves{seen}",
                 rounded(*albedo)) }
             help { Some(format!(
@@ -210,7 +211,7 @@ fn once() -> String {
         .to_owned()
 }
 
-fn situation(variables: &Variables) -> String {
+fn situation(variables: &[(&'static str, f64)]) -> String {
     let shown = variables.iter();
     let shown = shown.map(|(name, value)| format!("{name} = {}", rounded(*value)));
     shown.collect::<Vec<_>>().join(", ")

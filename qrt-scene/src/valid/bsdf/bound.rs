@@ -26,18 +26,17 @@ impl Ord for Candidate {
     }
 }
 
-/// Returns an upper bound of `e`, and of 0, over the whole domain, by branch and bound. It halves
+/// Returns an upper bound of `e`, and of 0, over the domain `whole`, by branch and bound. It halves
 /// the part with the highest bound until a known value is nearly as high, or the step limit is
 /// reached.
-pub(super) fn supremum(e: &Expr) -> f64 {
+pub(super) fn supremum(e: &Expr, whole: &Domain) -> f64 {
     const EFFORT: usize = 4096;
     const CLOSE: f64 = 1.0 + 1e-4;
     let variables: Vec<Variable> = e.variables(e.root()).iter().collect();
-    let whole = Domain::default();
     let bound = |domain: &Domain| e.range(domain).map_or(0.0, |range| range.hi.max(0.0));
     let mut heap = BinaryHeap::from([Candidate {
-        bound: bound(&whole),
-        domain: whole,
+        bound: bound(whole),
+        domain: *whole,
     }]);
     let mut reached: f64 = 0.0;
     let mut least_bound = f64::INFINITY;
@@ -52,7 +51,8 @@ pub(super) fn supremum(e: &Expr) -> f64 {
         least_bound = least_bound.min(highest);
         let width = |v: &Variable| {
             let (part, all) = (domain.get(*v), whole.get(*v));
-            (part.hi - part.lo) / (all.hi - all.lo)
+            // A coordinate that is the same on all faces has no width.
+            (part.hi - part.lo) / (all.hi - all.lo).max(f64::MIN_POSITIVE)
         };
         let widest = variables
             .iter()
@@ -78,6 +78,9 @@ pub(super) fn supremum(e: &Expr) -> f64 {
                 cos_i: centre(Variable::CosI),
                 cos_o: centre(Variable::CosO),
                 cos_a: centre(Variable::CosA),
+                x: centre(Variable::X),
+                y: centre(Variable::Y),
+                z: centre(Variable::Z),
             };
             let value = e.eval(&at);
             if value.is_finite() {
@@ -92,7 +95,7 @@ pub(super) fn supremum(e: &Expr) -> f64 {
     least_bound * (1.0 + 1e-9)
 }
 
-/// True if `e` is not proven to be nonnegative everywhere.
-pub(super) fn may_be_negative(e: &Expr) -> bool {
-    supremum(&-e) > 0.0
+/// True if `e` is not proven to be nonnegative everywhere in `domain`.
+pub(super) fn may_be_negative(e: &Expr, domain: &Domain) -> bool {
+    supremum(&-e, domain) > 0.0
 }

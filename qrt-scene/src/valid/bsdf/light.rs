@@ -166,10 +166,11 @@ impl Quadrature {
         let (albedo, cos_o) = worst?;
         let set = f.variables(f.root());
         let angles = set.contains(Variable::CosO) || set.contains(Variable::CosA);
-        let seen = angles.then_some(cos_o);
-        Some(Problem::new(
-            path.clone(),
-            Bsdf::GainsEnergy { albedo, seen },
-        ))
+        let at = if angles {
+            vec![(Variable::CosO.name(), cos_o)]
+        } else {
+            Vec::new()
+        };
+        Some(Problem::new(path.clone(), Bsdf::GainsEnergy { albedo, at }))
     }
 }

@@ -31,12 +31,12 @@ fn bsdf(map: [&str; 3], jacobian: &str, value: &[&str]) -> Bsdf {
 }
 
 fn right(map: [&str; 3], jacobian: &str, value: &[&str]) -> CustomBsdf {
-    compile(&bsdf(map, jacobian, value)).unwrap_or_else(|p| panic!("{p:?}"))
+    compile(&bsdf(map, jacobian, value), &Faces::NONE).unwrap_or_else(|p| panic!("{p:?}"))
 }
 
 #[track_caller]
 fn refused(map: [&str; 3], jacobian: &str, value: &[&str], code: &str, path: &str, words: &str) {
-    let problems = compile(&bsdf(map, jacobian, value)).expect_err("a faulty BSDF");
+    let problems = compile(&bsdf(map, jacobian, value), &Faces::NONE).expect_err("a faulty BSDF");
     let found = problems
         .iter()
         .find(|p| p.code() == code && p.path().unwrap().to_string() == path);
@@ -227,7 +227,7 @@ fn a_value_that_is_not_reciprocal_gets_a_warning() {
             .iter()
             .map(|text| Expr::parse(text, &Variable::ALL).unwrap())
             .collect();
-        let found = warnings(&values);
+        let found = warnings(&values, &Faces::NONE);
         assert!(found.iter().all(|problem| problem.code() == "QRT0422"));
         found
             .iter()

@@ -45,6 +45,7 @@ fn vertex(outgoing: Direction) -> Vertex<Scalar> {
         front: true,
         surface: SURFACE,
         tint: SURFACE,
+        point: None,
         alive: true,
     }
 }

@@ -43,7 +43,7 @@ fn codes(map: Map, value: &[&str]) -> Vec<&'static str> {
         value: value.iter().map(|&value| value.to_owned()).collect(),
         pdf: None,
     };
-    let problems = crate::valid::bsdf::compile(&bsdf).err();
+    let problems = crate::valid::bsdf::compile(&bsdf, &crate::valid::bsdf::Faces::NONE).err();
     let problems = problems.iter().flatten().map(Problem::code);
     problems.collect()
 }
@@ -294,7 +294,8 @@ fn a_stated_jacobian_excuses_nothing() {
             value: vec!["0.9/pi".to_owned()],
             pdf: None,
         };
-        let problems = crate::valid::bsdf::compile(&bsdf).unwrap_err();
+        let problems =
+            crate::valid::bsdf::compile(&bsdf, &crate::valid::bsdf::Faces::NONE).unwrap_err();
         let codes: Vec<_> = problems.iter().map(Problem::code).collect();
         // The energy is not reported: the value does not gain any.
         assert_eq!(codes, ["QRT0419"]);

@@ -65,7 +65,7 @@ fn an_infinity_that_a_map_a_jacobian_or_a_density_hides_is_refused() {
     );
     let mut dense = bsdf(COSINE, "auto", &["0.1"]);
     dense.pdf = Some("cos_i/pi + 1/(1/0)".to_owned());
-    let problems = compile(&dense).unwrap_err();
+    let problems = compile(&dense, &Faces::NONE).unwrap_err();
     let found = problems
         .iter()
         .map(|p| (p.code(), p.path().unwrap().to_string()));
