@@ -286,8 +286,13 @@ impl<'a> Build<'a> {
         path: &Path,
     ) {
         if !(radius > 0.0 && radius <= LARGEST) {
+            let fault = if radius > 0.0 {
+                Fault::Far
+            } else {
+                Fault::Small
+            };
             if !self.problems.touches(path) {
-                self.problems.add(path.clone(), Fault::Far);
+                self.problems.add(path.clone(), fault);
             }
             return;
         }
@@ -321,7 +326,7 @@ impl<'a> Build<'a> {
         };
         let radius = disc.radius * disc.scale;
         let vertices = square_around(centre, front, radius);
-        let fault = if !(radius > 0.0 && vertices.iter().all(|&vertex| is_in_range(vertex))) {
+        let fault = if !vertices.iter().all(|&vertex| is_in_range(vertex)) {
             Fault::Far
         } else if quad_fault(&vertices).is_some() {
             Fault::Small

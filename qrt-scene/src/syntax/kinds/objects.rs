@@ -100,12 +100,12 @@ problems! {
             help "list the vertices in order around the outline";
         Thin = ZERO_AREA "the box is too thin: rounding decides where its faces look"
             help "use a larger extent or a smaller translation, or write a quad";
-        Small = ZERO_AREA "the disc is too small: rounding decides its outline"
+        Small = ZERO_AREA "the shape is too small: rounding decides its outline"
             help "use a larger radius, or a centre nearer to the origin";
         NoNormal = DISC_NORMAL "`normal` is zero: it has no direction"
             help "write the direction that the front faces, such as [0, 1, 0]";
-        Far = MESH_RANGE "the shape is out of range once it is scaled, rotated and translated"
-            help "use a smaller transform";
+        Far = MESH_RANGE "the shape reaches out of range: no coordinate may exceed 1e30"
+            help "use a smaller shape, or a smaller transform";
         Merged = MESH_RANGE "rounding makes one point of two vertices once the shape is moved"
             label "too small for so large a translation"
             help "use a smaller translation, or a greater shape";
