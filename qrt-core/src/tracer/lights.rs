@@ -107,7 +107,7 @@ impl Lamps {
             let all = |lamp: &u32| {
                 let mine = labels().filter(|&label| surface_of[label as usize] as usize == surface);
                 if few && surfaces[surface].samples_lights() {
-                    lights::strongest_of(mine.map(face_of), face_of(*lamp))
+                    lights::strongest_of(mine.map(face_of), face_of(*lamp), NEAR)
                 } else {
                     Reached::UNBOUNDED
                 }
@@ -286,10 +286,7 @@ impl<const C: usize> LightStage<C> {
                 most = most.max(greatest);
             }
             if samples && matte {
-                let nearest = lamps.reached[surface]
-                    .iter()
-                    .map(|reached| reached.nearness);
-                near |= nearest.fold(0.0, f64::max) > NEAR.powi(-2);
+                near |= lamps.reached[surface].iter().any(|reached| reached.is_near);
             }
             weighs.push(!alone);
         }

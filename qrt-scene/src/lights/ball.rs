@@ -23,20 +23,24 @@ pub enum LitFace<'a> {
     },
 }
 
-/// Returns bounds over all points of the faces of a `surface` and all points of a `lamp`.
-pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFace<'_>) -> Reached {
+/// Returns bounds over all points of the faces of a `surface` and all points of a `lamp`. A distance below
+/// `near_by` is near.
+pub fn strongest_of<'a>(
+    surface: impl Iterator<Item = LitFace<'a>>,
+    lamp: LitFace<'_>,
+    near_by: f64,
+) -> Reached {
     let (mut flat, mut smooth) = (Vec::new(), Vec::new());
-    let mut most = Reached {
-        form: 0.0,
-        nearness: 0.0,
-    };
+    let mut most = Reached::NOTHING;
     let mut join = |other: Reached| {
         most.form = most.form.max(other.form);
-        most.nearness = most.nearness.max(other.nearness);
+        most.is_near |= other.is_near;
     };
     for face in surface {
         match (face, lamp) {
-            (_, LitFace::Sphere { .. }) | (LitFace::Sphere { .. }, _) => join(near(face, lamp)),
+            (_, LitFace::Sphere { .. }) | (LitFace::Sphere { .. }, _) => {
+                join(near(face, lamp, near_by));
+            }
             (LitFace::Polygon { outline, is_smooth }, _) => {
                 let faces = if is_smooth { &mut smooth } else { &mut flat };
                 faces.push(outline);
@@ -46,7 +50,7 @@ pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFac
     if let LitFace::Polygon { outline: lamp, .. } = lamp {
         for (faces, is_smooth) in [(flat, false), (smooth, true)] {
             if !faces.is_empty() {
-                join(strongest(&faces, is_smooth, lamp));
+                join(strongest(&faces, is_smooth, lamp, near_by));
             }
         }
     }
@@ -54,7 +58,7 @@ pub fn strongest_of<'a>(surface: impl Iterator<Item = LitFace<'a>>, lamp: LitFac
 }
 
 /// Returns the bounds that follow from the distance of two faces, of which one is a sphere.
-fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
+fn near(face: LitFace<'_>, lamp: LitFace<'_>, near_by: f64) -> Reached {
     let is_dark = match (face, lamp) {
         // A sphere shines outwards alone, so it does not light itself.
         (_, LitFace::Sphere { .. }) if face == lamp => true,
@@ -81,10 +85,7 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
         (LitFace::Polygon { .. }, LitFace::Polygon { .. }) => false,
     };
     if is_dark {
-        return Reached {
-            form: 0.0,
-            nearness: 0.0,
-        };
+        return Reached::NOTHING;
     }
     // Rounded down, so that the bound stays an upper one.
     let distance = distance(face, lamp) * (1.0 - 1e-12);
@@ -94,7 +95,7 @@ fn near(face: LitFace<'_>, lamp: LitFace<'_>) -> Reached {
     let bound = 1.0 / (distance * distance);
     Reached {
         form: bound,
-        nearness: bound,
+        is_near: bound > near_by.powi(-2),
     }
 }
 
@@ -235,7 +236,7 @@ mod tests {
             (polygon(&SQUARE, true), ball(2.0, 0.5)),
             (polygon(&SQUARE, true), polygon(&LAMP, false)),
         ] {
-            let bound = strongest_of([surface].into_iter(), lamp).form;
+            let bound = strongest_of([surface].into_iter(), lamp, 1.0).form;
             let mut greatest: f64 = 0.0;
             for _ in 0..20_000 {
                 let ((x, n), (y, m)) = (point(surface), point(lamp));
@@ -249,9 +250,9 @@ mod tests {
                 "{greatest} {bound}"
             );
         }
-        let behind = strongest_of([ball(-2.0, 0.5)].into_iter(), polygon(&SQUARE, false));
+        let behind = strongest_of([ball(-2.0, 0.5)].into_iter(), polygon(&SQUARE, false), 1.0);
         assert_eq!(behind.form, 0.0);
-        let touching = strongest_of([ball(0.5, 0.5)].into_iter(), polygon(&SQUARE, false));
+        let touching = strongest_of([ball(0.5, 0.5)].into_iter(), polygon(&SQUARE, false), 1.0);
         assert_eq!(touching.form, f64::INFINITY);
     }
 }

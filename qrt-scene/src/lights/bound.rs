@@ -21,15 +21,21 @@ const TOUCHING: f64 = 1.0 / 64.0;
 pub struct Reached {
     /// An upper bound of `q / r^4`: infinite if none can be shown.
     pub form: f64,
-    /// An upper bound of `1 / r^2` where `q` is not 0: infinite if none can be shown.
-    pub nearness: f64,
+    /// True unless `r` is shown to be at least the distance that was asked for, wherever `q` is not 0.
+    pub is_near: bool,
 }
 
 impl Reached {
     /// The bound if nothing is known: infinity.
     pub const UNBOUNDED: Self = Self {
         form: f64::INFINITY,
-        nearness: f64::INFINITY,
+        is_near: true,
+    };
+
+    /// The bounds of a surface that the lamp does not light.
+    pub const NOTHING: Self = Self {
+        form: 0.0,
+        is_near: false,
     };
 }
 
@@ -37,11 +43,13 @@ impl Reached {
 /// `lamp`. Light may arrive on either side of the surface; the lamp emits on its front.
 ///
 /// Corners go around a convex polygon; `(v1 - v0) x (v2 - v0)` is the front. `is_smooth` is true if the
-/// surface is shaded by interpolated normals: `n` may then have any direction.
-pub fn strongest(surface: &[&[DVec3]], is_smooth: bool, lamp: &[DVec3]) -> Reached {
+/// surface is shaded by interpolated normals: `n` may then have any direction. A distance below `near` is
+/// near.
+pub fn strongest(surface: &[&[DVec3]], is_smooth: bool, lamp: &[DVec3], near: f64) -> Reached {
+    let most = near.powi(-2);
     Reached {
         form: known(surface, lamp, Bound::of_form(is_smooth), MOST_PAIRS),
-        nearness: known(surface, lamp, Bound::Nearness, MOST_PAIRS),
+        is_near: known(surface, lamp, Bound::Nearness { most }, MOST_PAIRS) > most,
     }
 }
 
@@ -57,7 +65,10 @@ enum Bound {
     Form,
     /// The form where `n` may have any direction.
     SmoothForm,
-    Nearness,
+    /// `1 / r^2`, which only has to be known to exceed `most` or not.
+    Nearness {
+        most: f64,
+    },
 }
 
 impl Bound {
@@ -66,6 +77,15 @@ impl Bound {
             Self::SmoothForm
         } else {
             Self::Form
+        }
+    }
+
+    /// A number for each quantity, and the value on whose side it is asked to be.
+    fn key(self) -> (u8, u64) {
+        match self {
+            Self::Form => (0, 0),
+            Self::SmoothForm => (1, 0),
+            Self::Nearness { most } => (2, most.to_bits()),
         }
     }
 }
@@ -81,7 +101,7 @@ const MOST_KNOWN: usize = 1 << 16;
 fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f64 {
     let print = [0_u8, 1].map(|half| {
         let mut hasher = DefaultHasher::new();
-        (half, of as u8, most_pairs).hash(&mut hasher);
+        (half, of.key(), most_pairs).hash(&mut hasher);
         for polygon in faces.iter().chain([&lamp]) {
             polygon.len().hash(&mut hasher);
             let numbers = polygon.iter().flat_map(DVec3::to_array);
@@ -96,12 +116,11 @@ fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f6
     let lamp: Vec<Triangle> = Triangle::fan(lamp).collect();
     let pairs = faces.iter().flat_map(|face| Triangle::fan(face));
     let pairs = pairs.flat_map(|face| lamp.iter().map(move |lamp| [face, *lamp]));
-    let bound = match of {
-        Bound::Form => form,
-        Bound::SmoothForm => smooth_form,
-        Bound::Nearness => nearness,
+    let most = match of {
+        Bound::Form => supremum(pairs, form, most_pairs, None),
+        Bound::SmoothForm => supremum(pairs, smooth_form, most_pairs, None),
+        Bound::Nearness { most } => supremum(pairs, nearness, most_pairs, Some(most)),
     };
-    let most = supremum(pairs, bound, most_pairs);
     let mut all = all();
     if all.len() >= MOST_KNOWN {
         all.clear();
@@ -273,11 +292,13 @@ impl Pairs {
     }
 }
 
-/// Returns an upper bound over all pairs; `bound` gives that of one pair.
+/// Returns an upper bound over all pairs; `bound` gives that of one pair. With `asked`, the bound is only as
+/// tight as it takes to tell whether the supremum exceeds this value.
 fn supremum(
     pairs: impl Iterator<Item = [Triangle; 2]>,
-    bound: fn(&Triangle, &Triangle) -> f64,
+    bound: impl Fn(&Triangle, &Triangle) -> f64,
     most_pairs: usize,
+    asked: Option<f64>,
 ) -> f64 {
     let pairs = pairs.map(|pair| (bound(&pair[0], &pair[1]), pair));
     let (bounds, parts): (Vec<f64>, Vec<[Triangle; 2]>) =
@@ -299,9 +320,11 @@ fn supremum(
         ..*part
     };
     let mut taken: f64 = 0.0;
+    // The greatest bound of the parts that are not kept, since they end the search when they are reached.
+    let mut dropped: f64 = 0.0;
     for _ in 0..most_pairs {
         let Some((pair, [face, lamp])) = open.pop() else {
-            return 0.0;
+            return dropped * (1.0 + 1e-9);
         };
         let middle = bound(&point(&face), &point(&lamp));
         if middle.is_finite() {
@@ -310,20 +333,22 @@ fn supremum(
         if pair.most.is_infinite() && pair.size < TOUCHING * whole {
             return pair.most;
         }
-        if pair.most <= TIGHT * taken {
-            return pair.most * (1.0 + 1e-9);
+        let is_told = asked.is_some_and(|asked| taken > asked || pair.most <= asked);
+        if is_told || pair.most <= TIGHT * taken {
+            return pair.most.max(dropped) * (1.0 + 1e-9);
         }
         let cut_face = face.radius >= lamp.radius;
         let larger = if cut_face { &face } else { &lamp };
         for part in larger.quarters() {
             let [face, lamp] = if cut_face { [part, lamp] } else { [face, part] };
             let most = bound(&face, &lamp);
-            if most > 0.0 {
+            if most <= TIGHT * taken {
+                dropped = dropped.max(most);
+            } else {
                 open.push(most, &[face, lamp]);
             }
         }
     }
-    open.heap
-        .peek()
-        .map_or(0.0, |pair| pair.most * (1.0 + 1e-9))
+    let kept = open.heap.peek().map_or(0.0, |pair| pair.most);
+    kept.max(dropped) * (1.0 + 1e-9)
 }

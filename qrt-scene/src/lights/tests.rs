@@ -1,11 +1,5 @@
 use super::*;
 
-/// The bounds of a surface that the lamp does not light.
-const NOTHING: Reached = Reached {
-    form: 0.0,
-    nearness: 0.0,
-};
-
 fn square(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> [DVec3; 4] {
     let (a, u, v) = (DVec3::from(corner), DVec3::from(u), DVec3::from(v));
     [a, a + u, a + u + v, a + v]
@@ -18,18 +12,19 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
         let lamp = square([-0.1, height, -0.1], [0.2, 0.0, 0.0], [0.0, 0.0, 0.2]);
         assert!(Lamp::new(&lamp).unwrap().normal.y < 0.0);
         let floor = square([-4.0, 0.0, -4.0], [0.0, 0.0, 8.0], [8.0, 0.0, 0.0]);
-        let reached = strongest(&[&floor[..]], false, &lamp);
+        let reached = strongest(&[&floor[..]], false, &lamp, 1.01 * height);
         let exact = 1.0 / (height * height);
         assert!(
             reached.form >= exact && reached.form <= 1.2 * exact,
             "{reached:?}"
         );
-        assert!(reached.nearness >= exact && reached.nearness <= 1.2 * exact);
+        assert!(reached.is_near);
+        assert!(!strongest(&[&floor[..]], false, &lamp, 0.99 * height).is_near);
         // From behind nothing arrives.
         let mut turned = lamp;
         turned.reverse();
-        let dark = strongest(&[&floor[..]], false, &turned);
-        assert_eq!(dark, NOTHING);
+        let dark = strongest(&[&floor[..]], false, &turned, 1.0);
+        assert_eq!(dark, Reached::NOTHING);
     }
 }
 
@@ -37,11 +32,11 @@ fn a_floor_below_a_lamp_is_lit_most_right_below() {
 fn what_touches_a_lamp_has_no_bound_and_what_lies_in_its_plane_is_not_lit() {
     let lamp = square([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let wall = square([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    let reached = strongest(&[&wall[..]], false, &lamp);
+    let reached = strongest(&[&wall[..]], false, &lamp, 1.0);
     assert_eq!(reached.form, f64::INFINITY);
     let beside = square([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    let reached = strongest(&[&beside[..]], false, &lamp);
-    assert_eq!(reached, NOTHING);
+    let reached = strongest(&[&beside[..]], false, &lamp, 1.0);
+    assert_eq!(reached, Reached::NOTHING);
 }
 
 /// Compares with points of a grid on both.
@@ -59,7 +54,7 @@ fn no_pair_of_points_exceeds_the_bound() {
     let at = Lamp::new(&lamp).unwrap();
     for face in &faces {
         for lit in [&lamp[..], &[lamp[0], lamp[2], lamp[1]]] {
-            let reached = strongest(&[&face[..]], false, lit);
+            let reached = strongest(&[&face[..]], false, lit, 1.0);
             let from = Lamp::new(lit).unwrap();
             let receiver = Lamp::new(face).unwrap();
             let mut most: f64 = 0.0;

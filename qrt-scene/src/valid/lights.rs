@@ -94,7 +94,7 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
                 if matte.len() * count > MOST_PAIRS {
                     return Reached::UNBOUNDED;
                 }
-                strongest_of([*face].into_iter(), lamp)
+                strongest_of([*face].into_iter(), lamp, 0.0)
             };
             lamps().any(|(lamp, _)| reached(*lamp).form.is_infinite())
         });
