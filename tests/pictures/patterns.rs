@@ -48,6 +48,23 @@ fn place(pixel: usize) -> f64 {
     0.25 + 0.5 * pixel as f64
 }
 
+/// Compares the picture of `rest` in every model with the colours `expected` at (x, z).
+fn shows(rest: &str, expected: impl Fn(f64, f64) -> [f64; 3]) {
+    for (model, allowed) in MODELS {
+        for (number, pixel) in picture(rest, model).iter().enumerate() {
+            let (x, z) = (place(number % 4), place(number / 4));
+            let expected = expected(x, z);
+            for (value, right) in pixel.iter().zip(expected) {
+                let off = (value - right).abs();
+                assert!(
+                    off < allowed,
+                    "{model:?} at {x}, {z}: {pixel:?} for {expected:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn a_floor_shows_its_values_at_the_points_that_are_hit() {
     let albedos = [
@@ -62,21 +79,10 @@ geometry: [ {{ quad: {{ vertices: {FLOOR}, material: floor }} }} ]
 sampling: {{ path_bits: 4, depths: [{{ bits: [0, 0] }}, {{ bits: [2, 2] }}], lights: none }}",
         material(albedos)
     );
-    for (model, allowed) in MODELS {
-        let pixels = picture(&rest, model);
-        for (number, pixel) in pixels.iter().enumerate() {
-            let (x, z) = (place(number % 4), place(number / 4));
-            let disc = if x * x + z * z < 1.5 { 0.75 } else { 0.125 };
-            let expected = [0.5 + 0.25 * x, 0.3 * (1.0 + (3.0 * z).sin()), disc];
-            for (value, right) in pixel.iter().zip(expected) {
-                let off = (value - right).abs();
-                assert!(
-                    off < allowed,
-                    "{model:?} at {x}, {z}: {pixel:?} for {expected:?}"
-                );
-            }
-        }
-    }
+    shows(&rest, |x, z| {
+        let disc = if x * x + z * z < 1.5 { 0.75 } else { 0.125 };
+        [0.5 + 0.25 * x, 0.3 * (1.0 + (3.0 * z).sin()), disc]
+    });
 }
 
 /// On a sphere the point that is hit differs in all coordinates.
@@ -89,30 +95,16 @@ geometry: [ {{ sphere: {{ center: [1, 0, 1], radius: 1, material: ball }} }} ]
 sampling: {{ path_bits: 4, depths: [{{ bits: [0, 0] }}, {{ bits: [2, 2] }}], lights: none }}",
         material(["0.5 + 0.5*y", "0.25*x + 0.125*z", "(x - 1)^2"])
     );
-    for (model, allowed) in MODELS {
-        let pixels = picture(&rest, model);
-        for (number, pixel) in pixels.iter().enumerate() {
-            let (x, z) = (place(number % 4), place(number / 4));
-            let height = 1.0 - (x - 1.0).powi(2) - (z - 1.0).powi(2);
-            // Pixels at the corners of the film miss the sphere.
-            let expected = if height > 0.0 {
-                [
-                    0.5 + 0.5 * height.sqrt(),
-                    0.25 * x + 0.125 * z,
-                    (x - 1.0).powi(2),
-                ]
-            } else {
-                [1.0; 3]
-            };
-            for (value, right) in pixel.iter().zip(expected) {
-                let off = (value - right).abs();
-                assert!(
-                    off < allowed,
-                    "{model:?} at {x}, {z}: {pixel:?} for {expected:?}"
-                );
-            }
+    shows(&rest, |x, z| {
+        let height = 1.0 - (x - 1.0).powi(2) - (z - 1.0).powi(2);
+        // Pixels at the corners of the film miss the sphere.
+        if height > 0.0 {
+            let rise = 0.5 * height.sqrt();
+            [0.5 + rise, 0.25 * x + 0.125 * z, (x - 1.0).powi(2)]
+        } else {
+            [1.0; 3]
         }
-    }
+    });
 }
 
 /// With lamps sampled, and with them met by chance, a pixel is to that of a plain floor as the values are.
