@@ -396,8 +396,13 @@ impl Oracle {
 
     /// The operations of [`Oracle::flip`], and their order.
     fn flip_steps(&self, channel: usize) -> FlipSteps {
-        let count = self.channels[channel].count;
-        if let (0, Operand::Word(word)) = (self.comparator_bits(), count)
+        self.flip_of(&self.channels[channel], self.comparator_bits())
+    }
+
+    /// The same for a channel that the program need not have, and a comparator of `bits` bits.
+    fn flip_of(&self, channel: &Channel, bits: u32) -> FlipSteps {
+        let count = channel.count;
+        if let (0, Operand::Word(word)) = (bits, count)
             && word.bits() == 1
         {
             // Without a comparator, and with a count of one bit: flip the phase of that bit.
@@ -407,7 +412,7 @@ impl Oracle {
                 order: &[(0, false)],
             };
         }
-        let comparator = match self.comparator_bits() {
+        let comparator = match bits {
             0 => Operand::Constant(0),
             bits => Operand::Word(Word::unsigned(self.comparator, 0, bits)),
         };

@@ -46,7 +46,7 @@ pub(crate) struct NewArgs {
     #[arg(value_name = "NAME")]
     name: PathBuf,
     /// A scene so small that `qrt simulate`, or another simulator, runs the complete counting circuit of a
-    /// pixel: 21 qubits
+    /// pixel: 20 qubits
     #[arg(long)]
     small: bool,
     /// Replace a file that is there

@@ -36,6 +36,7 @@ mod names;
 mod number;
 mod order;
 mod passes;
+mod pebble;
 mod product;
 mod recompute;
 mod root;
@@ -47,7 +48,7 @@ mod value;
 pub(crate) use known::{Known, locked};
 pub use label::{Label, PixelWord, Role, StageName};
 pub use names::{NamedPlace, ValuePlace};
-pub(crate) use passes::assemble;
+pub(crate) use passes::{Roots, assemble};
 pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{BoolValue, Index, RealValue};
 
@@ -244,6 +245,11 @@ impl Recorded {
     /// Number of operations.
     pub(crate) fn operations(&self) -> usize {
         self.draft.ops.len()
+    }
+
+    /// The registers, with the widths that all programs of the recording give them; garbage has none yet.
+    pub(crate) fn registers(&self) -> &[Register] {
+        &self.draft.registers
     }
 }
 

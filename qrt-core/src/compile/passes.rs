@@ -8,11 +8,13 @@
 //! 4. [`share_multiples`]: computes products of one number with several constants from shared sums.
 //! 5. [`schedule`]: orders the instructions. Operations run once and their results stay, except in scopes:
 //!    a scope copies the results that are read outside it and then runs backwards. If qubits cost more than
-//!    gates, [`super::recompute`] orders the instructions.
+//!    gates, [`super::recompute`] orders the instructions, or [`super::pebble`] those of a small program.
 
 use super::draft::{Draft, Renamed};
 use super::known::{Known, locked};
-use super::{Label, Passes, PixelWord, Recorded, Scope, StageName, Strategy, groups, recompute};
+use super::{
+    Label, Passes, PixelWord, Recorded, Scope, StageName, Strategy, groups, pebble, recompute,
+};
 use qrt_circuit::lower::{self, OpFigures, QuickMap};
 use qrt_circuit::{Bit, BlockId, Instruction, Multiples, Op, Program, RegisterId, Style, Word};
 use std::collections::HashMap;
@@ -342,15 +344,22 @@ struct Scheduler<'a> {
     stays: Vec<bool>,
 }
 
-/// Orders the instructions: all at once, or scope by scope. `roots` stay to the end of the program. With
-/// scopes, some roots may end up in copies; the returned map contains these copies.
-pub(super) fn schedule(
+/// Orders the instructions: all at once, or scope by scope. `roots` stay to the end of the program, where
+/// `after` qubits are in use beside the program's. With scopes, some roots may end up in copies; the returned
+/// map contains these copies.
+fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
     roots: &[RegisterId],
+    after: u32,
     known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
-    if strategy.recomputes() {
+    if strategy.pebbles()
+        && let Some(instructions) = pebble::schedule(draft, roots, after, known)
+    {
+        return (instructions, Renamed::default());
+    }
+    if strategy.undoes_early() {
         return recompute::schedule(draft, strategy, roots, known);
     }
     if strategy.is_keep() {
@@ -513,10 +522,27 @@ impl Scheduler<'_> {
     }
 }
 
+/// The results of a program.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Roots<'a> {
+    pub(crate) registers: &'a [RegisterId],
+    /// The qubits that the code that reads them takes, beside the program's.
+    pub(crate) after: u32,
+}
+
+impl<'a> From<&'a [RegisterId]> for Roots<'a> {
+    fn from(registers: &'a [RegisterId]) -> Self {
+        Self {
+            registers,
+            after: 0,
+        }
+    }
+}
+
 /// Assembles the program of a recording. Returns it and the copies that replace some of its `roots`.
 pub(crate) fn assemble(
     recorded: Recorded,
-    roots: &[RegisterId],
+    roots: Roots<'_>,
     passes: Passes,
     strategy: Strategy,
     inputs: &[RegisterId],
@@ -530,7 +556,7 @@ pub(crate) fn assemble(
         groups::separate(&mut draft);
     }
     if passes.needed {
-        let mut kept = roots.to_vec();
+        let mut kept = roots.registers.to_vec();
         kept.extend(recorded.records);
         needed(&mut draft, &kept);
     }
@@ -541,7 +567,8 @@ pub(crate) fn assemble(
         share_multiples(&mut draft, strategy, known);
     }
     draft.size_scratch(known);
-    let (instructions, renamed) = schedule(&mut draft, strategy, roots, known);
+    let (instructions, renamed) =
+        schedule(&mut draft, strategy, roots.registers, roots.after, known);
     let program = Program {
         registers: draft.registers,
         blocks: draft.blocks,

@@ -85,10 +85,8 @@ pub struct Strategy {
     scopes: u16,
     /// By [`Garbage`]: true if it is undone at once, which doubles the gates of the operation.
     lean: [bool; 3],
-    /// True if cheap values are recomputed at each use and undone after their last use.
-    recomputes: bool,
-    /// True if more values are undone, by recomputing their inputs.
-    runs_again: bool,
+    /// The values that are recomputed at each use and undone after their last use.
+    again: Recomputed,
 }
 
 impl Strategy {
@@ -96,8 +94,7 @@ impl Strategy {
     pub const KEEP: Self = Self {
         scopes: 0,
         lean: [false; 3],
-        recomputes: false,
-        runs_again: false,
+        again: Recomputed::Nothing,
     };
 
     /// All parts but convex bodies and meshes are scopes. Operations leave no garbage, except within groups of
@@ -105,8 +102,14 @@ impl Strategy {
     pub const SCOPED: Self = Self {
         scopes: ((1 << Scope::ALL.len()) - 1) & !(1 << Scope::Body as u16),
         lean: [true; 3],
-        recomputes: false,
-        runs_again: false,
+        again: Recomputed::Nothing,
+    };
+
+    /// The order with the fewest qubits, found by the reversible pebble game, in programs of at most 64
+    /// operations. Larger programs are ordered scope by scope; parts are undone early and run again.
+    pub const PEBBLED: Self = Self {
+        again: Recomputed::Any,
+        ..Self::SCOPED
     };
 
     /// The independent choices of a strategy, the most effective first: scopes, the small ones together,
@@ -145,11 +148,9 @@ impl Strategy {
     /// The strategy of a scene's `circuit.uncompute`; none for `auto`, which chooses one.
     pub fn from_uncompute(uncompute: Uncompute) -> Option<Self> {
         let (parts, again) = uncompute.parts()?;
-        let kept = Self::of_choices(parts.into());
-        Some(match again {
-            Recomputed::Nothing => kept,
-            Recomputed::Cheap => kept.recomputing(),
-            Recomputed::Sources => kept.running_again(),
+        Some(Self {
+            again,
+            ..Self::of_choices(parts.into())
         })
     }
 
@@ -169,14 +170,7 @@ impl Strategy {
         let choices = Self::CHOICES.iter().enumerate();
         let parts = choices.filter(|(_, one)| is_taken(one));
         let parts = parts.fold(0, |parts, (bit, _)| parts | 1 << bit);
-        Uncompute::of_parts(
-            parts,
-            match (self.recomputes, self.runs_again) {
-                (_, true) => Recomputed::Sources,
-                (true, false) => Recomputed::Cheap,
-                (false, false) => Recomputed::Nothing,
-            },
-        )
+        Uncompute::of_parts(parts, self.again)
     }
 
     /// The strategy with these `scopes`, in which operations undo the garbage in `lean` at once.
@@ -197,24 +191,34 @@ impl Strategy {
 
     /// The same strategy, but it recomputes cheap values at each use and undoes them after the last.
     pub const fn recomputing(mut self) -> Self {
-        self.recomputes = true;
+        self.again = Recomputed::Cheap;
         self
     }
 
     /// The same as [`Strategy::recomputing`], but it undoes more values, by recomputing their inputs.
     pub(crate) const fn running_again(mut self) -> Self {
-        self.runs_again = true;
-        self.recomputing()
+        self.again = Recomputed::Sources;
+        self
     }
 
-    /// True if cheap values are recomputed at each use and undone after their last use.
+    /// True if the recording computes cheap values at each use.
     pub(crate) const fn recomputes(self) -> bool {
-        self.recomputes
+        matches!(self.again, Recomputed::Cheap | Recomputed::Sources)
     }
 
-    /// True if more values are undone, by recomputing their inputs.
-    pub(crate) const fn runs_again(self) -> bool {
-        self.runs_again
+    /// True if values may be undone after their last use, before the end of their scope.
+    pub(super) const fn undoes_early(self) -> bool {
+        !matches!(self.again, Recomputed::Nothing)
+    }
+
+    /// True if inputs of a value may be recomputed to undo it.
+    pub(super) const fn runs_again(self) -> bool {
+        matches!(self.again, Recomputed::Sources | Recomputed::Any)
+    }
+
+    /// True if small programs take the order with the fewest qubits.
+    pub(crate) const fn pebbles(self) -> bool {
+        matches!(self.again, Recomputed::Any)
     }
 
     /// Number of kinds of recordings that strategies need.
@@ -223,7 +227,7 @@ impl Strategy {
     /// The kind of recording that the strategy needs, a number below [`Strategy::RECORDINGS`]. Strategies
     /// of one kind differ in the passes after the recording.
     pub(crate) fn recording(self) -> usize {
-        let flags = [self.lean[0], self.lean[1], self.lean[2], self.recomputes];
+        let flags = [self.lean[0], self.lean[1], self.lean[2], self.recomputes()];
         flags
             .iter()
             .fold(0, |number, flag| 2 * number + usize::from(*flag))
@@ -235,7 +239,7 @@ impl Strategy {
         let kept = (0..Self::CHOSEN).map(Self::of_choices);
         let anew = Self::all_without_garbage()
             .flat_map(|strategy| [strategy.recomputing(), strategy.running_again()]);
-        kept.chain(anew).collect()
+        kept.chain(anew).chain([Self::PEBBLED]).collect()
     }
 
     /// The strategies of [`Strategy::all`] that recompute nothing and leave no garbage.

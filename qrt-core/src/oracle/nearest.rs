@@ -131,7 +131,7 @@ impl NearestOracle {
             .chain(nearer.map(|bit| bit.register));
         let (program, renamed) = compile::assemble(
             recorded,
-            &roots.collect::<Vec<_>>(),
+            roots.collect::<Vec<_>>().as_slice().into(),
             options.passes,
             strategy,
             &[id, primitive, best_distance, best_primitive],

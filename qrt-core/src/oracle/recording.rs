@@ -6,7 +6,9 @@ use super::{
     Channel, LUMINANCE, LUMINANCE_CHANNEL, Oracle, OracleError, OracleOptions, luminance,
     register_of,
 };
-use crate::compile::{self, Builder, NamedPlace, Passes, RealValue, Recorded, Role, Strategy};
+use crate::compile::{
+    self, Builder, NamedPlace, Passes, RealValue, Recorded, Role, Roots, Strategy,
+};
 use crate::tracer::{
     self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
 };
@@ -223,6 +225,21 @@ impl Recording {
         self.assembled((self.strategy, passes), &Mutex::default(), places)
     }
 
+    /// The qubits that the comparison of `channels` takes beside the program's.
+    fn flip_qubits(&self, channels: &[Channel], known: &mut compile::Known) -> u32 {
+        let registers = self.recorded.registers();
+        let width = |id: RegisterId| registers[id.index()].width;
+        let bits = width(self.known.comparator);
+        let steps = channels
+            .iter()
+            .map(|channel| self.known.flip_of(channel, bits));
+        let qubits = steps.flat_map(|steps| steps.ops).map(|op| {
+            let fresh = op.fresh().into_iter().map(width);
+            fresh.sum::<u32>() + known.alike.figures(&op, width).borrowed
+        });
+        qubits.max().unwrap_or(0)
+    }
+
     fn assembled(
         &self,
         (strategy, passes): (Strategy, Passes),
@@ -237,14 +254,17 @@ impl Recording {
         let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
         let mut inputs = vec![self.known.id, self.known.comparator];
         inputs.extend(self.known.nearest);
-        let (mut program, renamed) = compile::assemble(
-            self.recorded.clone(),
-            &roots,
-            passes,
-            strategy,
-            &inputs,
-            ops,
-        );
+        let after = if strategy.pebbles() {
+            self.flip_qubits(&outputs, &mut compile::locked(ops))
+        } else {
+            0
+        };
+        let roots = Roots {
+            registers: &roots,
+            after,
+        };
+        let (mut program, renamed) =
+            compile::assemble(self.recorded.clone(), roots, passes, strategy, &inputs, ops);
         let rename = |operand: Operand| match operand {
             Operand::Word(word) => Operand::Word(Word {
                 register: renamed

@@ -101,13 +101,14 @@ impl StrategyCosts<'_> {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn cheapest(&self, qubits: u64) -> Result<Strategy, OracleError> {
+        let pebbled = (self.call(Strategy::PEBBLED)?, Strategy::PEBBLED);
         let kept = self.cheapest_kept(qubits)?;
         let without_garbage: Vec<Strategy> = Strategy::all_without_garbage().collect();
         let anew: Vec<Strategy> = without_garbage.iter().map(|s| s.recomputing()).collect();
         if let Some((cost, strategy)) = kept {
             // Of the strategies that recompute, the one without scopes has few Toffolis, if not the fewest.
             let few = self.call(anew[0])?.toffoli;
-            if cost.toffoli <= few - few / 3 {
+            if cost.toffoli <= (few - few / 3).min(pebbled.0.toffoli) {
                 return Ok(strategy);
             }
         }
@@ -119,7 +120,13 @@ impl StrategyCosts<'_> {
             }
         };
         let mut all = self.costs(&anew)?;
-        let best = all.iter().chain(&kept).map(rank).min();
+        let others = || kept.into_iter().chain([pebbled]);
+        let best = all
+            .iter()
+            .copied()
+            .chain(others())
+            .map(|one| rank(&one))
+            .min();
         // Running inputs again frees more qubits, and saves no Toffolis.
         let may_be_better = |one: &(CallCost, Strategy)| {
             let fits = one.0.qubits <= qubits;
@@ -128,8 +135,9 @@ impl StrategyCosts<'_> {
         let again = without_garbage.iter().zip(&all);
         let again = again.filter(|(_, one)| may_be_better(one));
         let again: Vec<Strategy> = again.map(|(s, _)| s.running_again()).collect();
-        all.extend(self.costs(&again)?);
-        let best = all.into_iter().chain(kept).min_by_key(rank);
+        let again = self.costs(&again)?;
+        all.extend(again.into_iter().chain(others()));
+        let best = all.into_iter().min_by_key(rank);
         Ok(best.map_or(Strategy::SCOPED, |(_, strategy)| strategy))
     }
 

@@ -1,6 +1,6 @@
 //! Strategies of uncomputing work registers, and their names.
 //!
-//! A name other than `keep`, `scoped` and `auto` lists parts of the work, such as `plane-products`.
+//! A name other than `keep`, `scoped`, `auto` and `pebbled` lists parts of the work, such as `plane-products`.
 //! `compile/strategy.rs` defines what each part uncomputes.
 
 use super::shape::Shape;
@@ -19,6 +19,8 @@ pub enum Uncompute {
     Scoped,
     /// Chooses the strategy with the fewest gates within `budget.qubits`.
     Auto,
+    /// In the order with the fewest qubits.
+    Pebbled,
     /// Some of the parts early, and the others at the end.
     Parts(UncomputedParts),
 }
@@ -41,10 +43,12 @@ pub enum Recomputed {
     Cheap,
     /// Cheap values, and the values from which they are computed.
     Sources,
+    /// Any values, where that saves qubits.
+    Any,
 }
 
 /// Names that stand alone, with their meanings.
-const WORDS: [(Uncompute, &str, &str); 3] = [
+const WORDS: [(Uncompute, &str, &str); 4] = [
     (
         Uncompute::Keep,
         "keep",
@@ -59,6 +63,11 @@ const WORDS: [(Uncompute, &str, &str); 3] = [
         Uncompute::Auto,
         "auto",
         "As much as `budget.qubits` asks for, at the fewest gates.",
+    ),
+    (
+        Uncompute::Pebbled,
+        "pebbled",
+        "In the order with the fewest qubits: exactly for up to 64 operations.",
     ),
 ];
 
@@ -105,6 +114,7 @@ impl Uncompute {
         match (parts, again) {
             (0, Recomputed::Nothing) => Self::Keep,
             (SCOPED, Recomputed::Nothing) => Self::Scoped,
+            (_, Recomputed::Any) => Self::Pebbled,
             (parts, Recomputed::Nothing) => Self::Parts(UncomputedParts { parts, again }),
             (parts, again) => Self::Parts(UncomputedParts {
                 parts: parts | GARBAGE,
@@ -119,6 +129,7 @@ impl Uncompute {
             Self::Keep => Some((0, Recomputed::Nothing)),
             Self::Scoped => Some((SCOPED, Recomputed::Nothing)),
             Self::Auto => None,
+            Self::Pebbled => Some((SCOPED, Recomputed::Any)),
             Self::Parts(UncomputedParts { parts, again }) => Some((parts, again)),
         }
     }
@@ -174,7 +185,7 @@ fn listed(parts: u16, again: Recomputed) -> String {
     let (shown, last) = match again {
         Recomputed::Nothing => (parts, None),
         Recomputed::Cheap => (parts & !GARBAGE, Some(RECOMPUTE)),
-        Recomputed::Sources => (parts & !GARBAGE, Some(RERUN)),
+        Recomputed::Sources | Recomputed::Any => (parts & !GARBAGE, Some(RERUN)),
     };
     let names = UNCOMPUTE_PARTS.iter().enumerate();
     let names = names.filter(|(bit, _)| shown >> bit & 1 == 1);

@@ -89,7 +89,7 @@ pub(super) fn traced(
     roots.extend(counts.filter_map(register_of));
     let (mut program, renamed) = compile::assemble(
         recorded,
-        &roots,
+        roots.as_slice().into(),
         options.passes,
         strategy,
         &[id, comparator],

@@ -75,7 +75,7 @@ impl Circuit {
         let known = Mutex::default();
         let (program, renamed) = compile::assemble(
             recorded,
-            &registers,
+            registers.as_slice().into(),
             Passes::ALL,
             Strategy::KEEP,
             &inputs,
