@@ -64,11 +64,16 @@ def as_text(notebook):
     return "\n".join(lines)
 
 
-def test_the_notebook_runs_to_its_end_and_shows_what_the_book_says(tmp_path):
+NOTEBOOKS = {"counting_light": ("ipykernel",), "mirror_on_aer": ("ipykernel", "qiskit_aer")}
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_a_notebook_runs_to_its_end_and_shows_what_the_book_says(tmp_path, name):
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")
-    pytest.importorskip("ipykernel")
-    notebook = nbformat.read(EXAMPLES / "counting_light.ipynb", as_version=4)
+    for module in NOTEBOOKS[name]:
+        pytest.importorskip(module)
+    notebook = nbformat.read(EXAMPLES / f"{name}.ipynb", as_version=4)
     nbformat.validate(notebook)
     assert all(not cell.get("outputs") for cell in notebook.cells), "committed without outputs"
     nbclient.NotebookClient(
@@ -80,10 +85,11 @@ def test_the_notebook_runs_to_its_end_and_shows_what_the_book_says(tmp_path):
             cell.outputs = [one for one in cell.outputs if not is_a_bar(one)]
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     pages = [output["data"].get("text/html", "") for output in shown if "data" in output]
-    assert any("data:image/png;base64," in page for page in pages)
+    if name == "counting_light":
+        assert any("data:image/png;base64," in page for page in pages)
     assert any("Toffoli" in page for page in pages)
     text = as_text(notebook)
-    told = EXAMPLES / "counting_light.py"
+    told = EXAMPLES / f"{name}.py"
     if os.environ.get("QRT_BLESS"):
         told.write_text(text, encoding="utf-8")
     assert told.read_text(encoding="utf-8") == text
@@ -92,6 +98,13 @@ def test_the_notebook_runs_to_its_end_and_shows_what_the_book_says(tmp_path):
 def is_a_bar(output):
     widget = "application/vnd.jupyter.widget-view+json"
     return output.get("name") == "stderr" or widget in output.get("data", {})
+
+
+@pytest.mark.parametrize("qubits", [16, 20, 23])
+def test_mqt_bench_takes_the_circuits(tmp_path, qubits):
+    pytest.importorskip("mqt.bench")
+    said = run(tmp_path, [sys.executable, EXAMPLES / "mqt_bench.py", str(qubits)])
+    assert "MAPPED        27 qubits" in said and f"INDEP         {qubits} qubits" in said
 
 
 def test_the_example_of_mpi_runs(box, box_file, tmp_path):

@@ -24,7 +24,9 @@ def to_qiskit(self: Any, part: str = "oracle") -> Any:
     """
     qasm2 = _library("qiskit.qasm2", "qiskit")
     instructions = qasm2.LEGACY_CUSTOM_INSTRUCTIONS
-    return qasm2.loads(self.qasm(2, part), custom_instructions=instructions)
+    circuit = qasm2.loads(self.qasm(2, part), custom_instructions=instructions)
+    circuit.name = f"{self.scene}_{part}"
+    return circuit
 
 
 def estimation_problem(self: Any) -> Any:
