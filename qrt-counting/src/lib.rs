@@ -25,6 +25,7 @@ mod comparator;
 mod distribution;
 mod double;
 mod draw;
+mod elementary;
 mod error;
 pub mod estimators;
 mod histogram;

@@ -20,12 +20,15 @@
 //! eigenvalues, whose distances from their poles then have 106 bits.
 
 use crate::double::{self, Double};
+use crate::elementary::{arctangent, round, sincos};
 use crate::vectorized::vectorized;
 use qrt_circuit::quantum::LevelPhases;
 use std::f64::consts::PI;
 
 /// The most iterations, per different phase, that are multiplied out.
 const MULTIPLIED: u64 = 16;
+/// The most bits of phases that 53 bits of an arctangent decide, except close to the middle of two.
+const DECIDED: u32 = 36;
 /// The most iterations for which 53 bits of an eigenvalue suffice.
 const SHALLOW: u64 = 1 << 20;
 
@@ -54,10 +57,11 @@ pub fn mean_phase_probabilities(
 ) -> Vec<[f64; 2]> {
     let signal = MeanSignal::new(levels, phases);
     let state = signal.state(iterations);
+    let half_basis = libm::sincos(0.5 * basis);
     let mut probabilities = Vec::with_capacity(levels.len());
     for (place, group) in signal.groups.iter().enumerate() {
         let both = state
-            .outcomes(place, basis)
+            .outcomes(place, half_basis)
             .map(|amplitude| amplitude * amplitude);
         for (_, paths) in &levels[group.levels.clone()] {
             let share = *paths as f64 / group.paths;
@@ -95,13 +99,73 @@ pub(crate) struct MeanState {
     pub(crate) im: Vec<f64>,
 }
 
+/// Turns of amplitudes, by sine and cosine.
+struct Turn {
+    cosines: Vec<f64>,
+    sines: Vec<f64>,
+}
+
+impl Turn {
+    fn new(groups: usize) -> Self {
+        let [cosines, sines] = [0.0, 0.0].map(|zero| vec![zero; groups]);
+        Self { cosines, sines }
+    }
+
+    /// Sets the turns to `factor` times these angles, in radians.
+    #[inline(always)]
+    fn set(&mut self, angles: &[f64], factor: f64) {
+        let parts = self.cosines.iter_mut().zip(&mut self.sines);
+        for ((cosine, sine), angle) in parts.zip(angles) {
+            (*sine, *cosine) = sincos(factor * angle);
+        }
+    }
+}
+
+/// The [`LevelPhases::word`] of each level.
+fn words(levels: &[(u64, u64)], phases: &LevelPhases) -> Vec<i64> {
+    if phases.bits() > DECIDED {
+        return levels
+            .iter()
+            .map(|&(level, _)| phases.word(level))
+            .collect();
+    }
+    let step = 1.0 / (1_u64 << phases.level_bits()) as f64;
+    let size = (1_u64 << phases.bits()) as f64;
+    let colours: Vec<f64> = levels.iter().map(|&(level, _)| level as f64).collect();
+    // Each word, and how far it was rounded.
+    let [mut words, mut rounded] = [0.0, 0.0].map(|zero| vec![zero; levels.len()]);
+    vectorized(
+        #[inline(always)]
+        || {
+            let each = words.iter_mut().zip(&mut rounded);
+            for ((word, rounded), colour) in each.zip(&colours) {
+                let distance = colour * step - phases.reference();
+                let exact = size / PI * arctangent(phases.slope() * distance);
+                *word = round(exact);
+                *rounded = (exact - *word).abs();
+            }
+        },
+    );
+    let each = words.into_iter().zip(rounded).zip(levels);
+    each.map(|((word, rounded), &(level, _))| {
+        // Neither half way between two words, nor near the ends.
+        if rounded < 0.499 && word.abs() < 0.5 * size - 2.0 {
+            word as i64
+        } else {
+            phases.word(level)
+        }
+    })
+    .collect()
+}
+
 impl<'a> MeanSignal<'a> {
     /// Groups the paths of `levels`, which are in ascending order.
     pub(crate) fn new(levels: &'a [(u64, u64)], phases: LevelPhases) -> Self {
         let total: u64 = levels.iter().map(|(_, paths)| paths).sum();
         let mut groups: Vec<Group> = Vec::with_capacity(levels.len());
-        for (n, &(level, paths)) in levels.iter().enumerate() {
-            let (word, weight) = (phases.word(level), paths as f64 / total as f64);
+        let words = words(levels, &phases);
+        for (n, (&(_, paths), word)) in levels.iter().zip(words).enumerate() {
+            let weight = paths as f64 / total as f64;
             match groups.last_mut() {
                 Some(last) if last.word == word => {
                     last.paths += paths as f64;
@@ -140,16 +204,8 @@ impl<'a> MeanSignal<'a> {
     fn multiplied(&self, k: u64) -> MeanState {
         let psi: Vec<f64> = self.groups.iter().map(|g| g.weight.sqrt()).collect();
         let unit = PI / (1_u64 << self.phases.bits()) as f64;
-        let angle = |factor: f64| -> (Vec<f64>, Vec<f64>) {
-            let angles = self.groups.iter().map(|g| g.word as f64 * unit * factor);
-            angles
-                .map(|angle| {
-                    let (sine, cosine) = libm::sincos(angle);
-                    (cosine, sine)
-                })
-                .unzip()
-        };
-        let (half, whole) = (angle(1.0), angle(2.0));
+        let angles: Vec<f64> = self.groups.iter().map(|g| g.word as f64 * unit).collect();
+        let (mut half, mut whole) = (Turn::new(psi.len()), Turn::new(psi.len()));
         let mut state = MeanState {
             re: psi.clone(),
             im: vec![0.0; psi.len()],
@@ -160,6 +216,8 @@ impl<'a> MeanSignal<'a> {
         vectorized(
             #[inline(always)]
             || {
+                half.set(&angles, 1.0);
+                whole.set(&angles, 2.0);
                 state.turn(&half);
                 for left in (0..k).rev() {
                     state.reflect(&psi);
@@ -369,9 +427,9 @@ fn cotangent(angle: Double) -> Double {
 
 impl MeanState {
     #[inline(always)]
-    fn turn(&mut self, (cosines, sines): &(Vec<f64>, Vec<f64>)) {
+    fn turn(&mut self, turn: &Turn) {
         let parts = self.re.iter_mut().zip(&mut self.im);
-        for ((re, im), (c, s)) in parts.zip(cosines.iter().zip(sines)) {
+        for ((re, im), (c, s)) in parts.zip(turn.cosines.iter().zip(&turn.sines)) {
             (*re, *im) = (*re * c - *im * s, *re * s + *im * c);
         }
     }
@@ -403,10 +461,11 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl MeanState {
-    /// The ancilla's outcome 0 at `basis` radians has this amplitude at a group, outcome 1 the
-    /// second one: the parts of `exp(-i basis/2)` times the group's amplitude.
-    pub(crate) fn outcomes(&self, group: usize, basis: f64) -> [f64; 2] {
-        let (sine, cosine) = libm::sincos(0.5 * basis);
+    /// The ancilla's outcome 0, measured at an angle, has this amplitude at a group, outcome 1 the
+    /// second one: the parts of `exp(-i angle/2)` times the group's amplitude. `half_basis` is the sine and
+    /// the cosine of half the angle.
+    pub(crate) fn outcomes(&self, group: usize, half_basis: (f64, f64)) -> [f64; 2] {
+        let (sine, cosine) = half_basis;
         let (re, im) = (self.re[group], self.im[group]);
         [re * cosine + im * sine, im * cosine - re * sine]
     }
@@ -441,6 +500,26 @@ mod tests {
             .zip(parts(b))
             .map(|(a, b)| (a - b).abs());
         differences.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn words_are_those_of_the_circuit() {
+        for (seed, bits, slope, table) in [
+            (1, 4, 0.7, 2),
+            (2, 8, 3.0, 12),
+            (3, 10, 20.0, 24),
+            (4, 12, 1.5, DECIDED),
+            (5, 12, 1e5, 30),
+            (6, 12, 1.5, 51),
+        ] {
+            let levels = levels(seed, 400, bits);
+            for reference in [0.0, 0.03, 0.5, 1.0] {
+                let phases = LevelPhases::new(slope, reference, bits, table).unwrap();
+                let of_circuit = levels.iter().map(|&(level, _)| phases.word(level));
+                let found = words(&levels, &phases);
+                assert_eq!(found, of_circuit.collect::<Vec<_>>(), "{seed}, {reference}");
+            }
+        }
     }
 
     #[test]

@@ -12,7 +12,6 @@
 mod adaptive;
 mod choice;
 mod depth;
-mod elementary;
 mod mean;
 mod phase_mean;
 mod posterior;

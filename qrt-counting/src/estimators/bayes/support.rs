@@ -1,7 +1,7 @@
 //! The points that hold a posterior: a grid of angles, from coarse to fine, or integers.
 
-use super::elementary::{fifth_root, sincos};
 use crate::Angle;
+use crate::elementary::{fifth_root, sincos};
 use crate::estimators::turns::amplitude;
 use crate::vectorized::vectorized;
 

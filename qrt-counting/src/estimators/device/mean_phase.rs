@@ -19,6 +19,7 @@
 //! The path index is measured, too: a sample of the colours that prefers those far from the reference.
 
 use super::Device;
+use super::strata::Known;
 use crate::estimators::{EstimatorError, MAX_ITERATIONS, Noise, id_bits};
 use crate::mean_signal::{MeanSignal, MeanState};
 use crate::random::Stream;
@@ -71,15 +72,8 @@ impl<'a> Device<'a> {
 
     /// Number of the comparator's bits, if the levels of paths are known one by one.
     pub fn level_bits(&self) -> Option<u32> {
-        self.levels().ok().and(self.comparator_bits())
-    }
-
-    fn levels(&self) -> Result<&[(u64, u64)], EstimatorError> {
-        let levels = self.known.as_ref().map_or(&[][..], |known| &known.levels);
-        if levels.is_empty() {
-            return Err(EstimatorError::NoLevels);
-        }
-        Ok(levels)
+        let known = levels(self.known.as_deref()).is_ok();
+        self.comparator_bits().filter(|_| known)
     }
 
     /// Levels of the paths, and the numbers of good indices and of others that counting circuits
@@ -125,15 +119,15 @@ impl<'a> Device<'a> {
         if iterations > MAX_ITERATIONS {
             return Err(EstimatorError::TooManyIterations(iterations));
         }
-        let levels = self.levels()?.to_vec();
         let bits = self.comparator_bits().unwrap_or_default();
+        let levels = levels(self.known.as_deref())?;
         if bits != phases.level_bits() {
             return Err(EstimatorError::OtherLevels {
                 device: bits,
                 phases: phases.level_bits(),
             });
         }
-        let signal = MeanSignal::new(&levels, phases);
+        let signal = MeanSignal::new(levels, phases);
         let paths: u64 = levels.iter().map(|(_, paths)| paths).sum();
         let bits = id_bits(paths) + 1;
         let intact = self.noise.intact(iterations + 1) * self.noise.read_rightly(bits);
@@ -144,7 +138,7 @@ impl<'a> Device<'a> {
             let one = self.stream.next_u64() >> 63 == 1;
             MeanPhaseShot {
                 one,
-                level: nth_path(&levels, path),
+                level: nth_path(levels, path),
             }
         } else {
             let (one, group) = drawn(&state, basis, choice);
@@ -165,6 +159,15 @@ impl<'a> Device<'a> {
     }
 }
 
+/// Levels of the paths, each with its number of paths.
+fn levels(known: Option<&Known>) -> Result<&[(u64, u64)], EstimatorError> {
+    let levels = known.map_or(&[][..], |known| &known.levels);
+    if levels.is_empty() {
+        return Err(EstimatorError::NoLevels);
+    }
+    Ok(levels)
+}
+
 /// The level of path number `path`.
 fn nth_path(levels: &[(u64, u64)], mut path: u64) -> u64 {
     for &(level, paths) in levels {
@@ -180,8 +183,12 @@ fn nth_path(levels: &[(u64, u64)], mut path: u64) -> u64 {
 fn drawn(state: &MeanState, basis: f64, choice: f64) -> (bool, usize) {
     let mut left = choice;
     let mut last = (false, 0);
+    let half_basis = libm::sincos(0.5 * basis);
     for group in 0..state.re.len() {
-        for (one, amplitude) in [false, true].into_iter().zip(state.outcomes(group, basis)) {
+        for (one, amplitude) in [false, true]
+            .into_iter()
+            .zip(state.outcomes(group, half_basis))
+        {
             let probability = amplitude * amplitude;
             if probability > 0.0 {
                 last = (one, group);

@@ -1,6 +1,9 @@
 //! Colours of measured paths, and what the mean-phase circuit takes from them.
 
+use crate::elementary::{arctangent, sincos};
+use crate::vectorized::vectorized;
 use qrt_circuit::quantum::LevelPhases;
+use std::f64::consts::FRAC_PI_2;
 
 /// sigma times the slope: the colours' standard deviation in units of the phases. The signal turns
 /// fastest at 1, and is seen best at less.
@@ -34,10 +37,12 @@ struct Shot {
 
 impl Shot {
     /// The probability to measure a path of this colour, over its fraction of all paths.
+    #[inline(always)]
     fn density(&self, colour: f64) -> f64 {
         self.with_noise(self.ideal(colour))
     }
 
+    #[inline(always)]
     fn with_noise(&self, ideal: f64) -> f64 {
         1.0 + self.intact * (ideal * self.norm - 1.0)
     }
@@ -47,10 +52,11 @@ impl Shot {
     /// Let the other paths keep their amplitude. Each iterate then takes a path's amplitude a to
     /// `exp(i phi) (2 - a)`. It turns around `sqrt(1 + y^2)`, y = tan(phi/2), by `phi + pi` an
     /// iterate: a path far from the reference takes many iterates to be seen.
+    #[inline(always)]
     fn ideal(&self, colour: f64) -> f64 {
         let y = self.slope * (colour - self.reference);
         let centre = (1.0 + y * y).sqrt();
-        let sine = libm::sin(self.iterations * libm::atan2(1.0, y.abs()));
+        let (sine, _) = sincos(self.iterations * (FRAC_PI_2 - arctangent(y.abs())));
         1.0 + 4.0 * centre * (centre - 1.0) * sine * sine
     }
 }
@@ -149,8 +155,16 @@ impl Colours {
             norm: 1.0,
             intact,
         };
-        let ideal = |seen: &Seen| shot.ideal(seen.colour);
-        let densities: Vec<f64> = self.seen.iter().chain(&self.unseen).map(ideal).collect();
+        let colours = self.seen.iter().chain(&self.unseen);
+        let mut densities: Vec<f64> = colours.map(|seen| seen.colour).collect();
+        vectorized(
+            #[inline(always)]
+            || {
+                for density in &mut densities {
+                    *density = shot.ideal(*density);
+                }
+            },
+        );
         let (mut weights, mut sum) = (0.0, 0.0);
         for (seen, density) in self.seen.iter().zip(&densities) {
             let weight = seen.times / seen.density;
@@ -169,11 +183,19 @@ impl Colours {
         match (self.seen).binary_search_by(|seen| seen.colour.total_cmp(&colour)) {
             Ok(place) => self.seen[place].times += 1.0,
             Err(place) => {
-                let shots: f64 = self.shots.iter().map(|shot| shot.density(colour)).sum();
+                let mut densities = vec![0.0; self.shots.len()];
+                vectorized(
+                    #[inline(always)]
+                    || {
+                        for (density, shot) in densities.iter_mut().zip(&self.shots) {
+                            *density = shot.density(colour);
+                        }
+                    },
+                );
                 let new = Seen {
                     colour,
                     times: 1.0,
-                    density: self.sampled + shots,
+                    density: self.sampled + densities.iter().sum::<f64>(),
                 };
                 self.seen.insert(place, new);
             }

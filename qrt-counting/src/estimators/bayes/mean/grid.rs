@@ -1,6 +1,6 @@
 //! The posterior of a mean, on a grid that narrows around it.
 
-use crate::estimators::bayes::elementary::{arctangent, sincos};
+use crate::elementary::{arctangent, sincos};
 use crate::mean_signal::dot;
 use crate::vectorized::vectorized;
 use std::f64::consts::{FRAC_PI_2, PI};
