@@ -240,6 +240,39 @@ fn tables_fit_and_name_the_boxes_of_the_paper() {
     assert!(text.contains("6 path bits, 2 depths, 5 comparator bits, 10 fraction bits"));
 }
 
+/// Under these strategies, parts of one search run at several times.
+#[test]
+fn the_parts_of_a_row_take_no_more_than_the_row() {
+    let small = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes-yaml/small");
+    for (scene, strategy) in [("slanted", "pebbled"), ("shadow", "recompute")] {
+        let (file, set) = (
+            format!("{small}/{scene}.yaml"),
+            format!("circuit.uncompute={strategy}"),
+        );
+        let text = folder().works(&["inspect", &file, "--set", &set]);
+        // The level of each open row, and the Toffolis that its parts may still take.
+        let mut open: Vec<(usize, u64)> = Vec::new();
+        let mut levels = 0;
+        let rows = text.lines().skip_while(|row| !row.starts_with("compute"));
+        for row in rows.take_while(|row| !row.starts_with("compare and flip")) {
+            let is_branch = |c: &char| "\u{251c}\u{2514}\u{2502} ".contains(*c);
+            let level = row.chars().take_while(is_branch).count();
+            // The name has 28 characters, the number after it 14.
+            let digits = row.chars().skip(28).take(14).filter(char::is_ascii_digit);
+            let toffoli: u64 = digits.collect::<String>().parse().unwrap();
+            open.retain(|(above, _)| *above < level);
+            if let Some((_, left)) = open.last_mut() {
+                *left = left
+                    .checked_sub(toffoli)
+                    .unwrap_or_else(|| panic!("{row}: {text}"));
+            }
+            open.push((level, toffoli));
+            levels = levels.max(open.len());
+        }
+        assert_eq!(levels, 4, "{text}");
+    }
+}
+
 #[test]
 fn tables_say_what_json_says() {
     let answer = json(&folder(), &["floor.yaml"]);

@@ -5,6 +5,7 @@ use crate::compile::Label;
 use qrt_circuit::lower::Cost;
 use qrt_circuit::{Block, BlockId, RegisterId};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A block of the program, and its cost.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +31,23 @@ pub struct BlockFigures {
 }
 
 impl Inspection {
+    /// The cost of some instructions, by [`BlockFigures::block`]: that of each block with any of them, its
+    /// inner blocks included.
+    pub fn blocks_in(&self, instructions: Range<usize>) -> HashMap<BlockId, Cost> {
+        let blocks = &self.whole.blocks;
+        let (one, _) = merged(blocks);
+        let mut costs: HashMap<BlockId, Cost> = HashMap::new();
+        for at in instructions {
+            let mut place = Some(one[self.whole.instructions[at].block.index()]);
+            while let Some(block) = place {
+                let cost = costs.entry(BlockId(block as u32)).or_default();
+                *cost = *cost + self.costs[at];
+                place = blocks[block].parent.map(|parent| one[parent.index()]);
+            }
+        }
+        costs
+    }
+
     /// The blocks, each before its inner blocks. Blocks of one name within one block are merged: a
     /// search may pass a plane twice. The `own` costs of all blocks add up to the total of the
     /// root, the cost of the whole call.

@@ -205,11 +205,11 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
         row(out, "", part.name(), cost, all, Some(qubits));
     };
     part(out, CallPart::Compute);
-    let blocks = inspection.blocks();
-    let stages = inspection.stages();
-    let stages = stages
-        .iter()
-        .filter(|stage| stage.part == CallPart::Compute);
+    let mut stages = inspection.stages();
+    stages.retain(|stage| stage.part == CallPart::Compute);
+    let all_blocks = inspection.blocks();
+    let blocks = |stage: &CallStage| blocks_of(inspection, &all_blocks, &stages, stage);
+    let stages = stages.iter();
     let mut depths: Vec<(Option<u32>, Vec<&CallStage>)> = Vec::new();
     for stage in stages {
         match depths.last_mut() {
@@ -237,7 +237,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
                         Some(stage.qubits),
                     );
                     let below = format!("{below}{further}");
-                    within(out, &below, stage, &blocks, all, planes);
+                    within(out, &below, &blocks(stage), all, planes);
                 }
             }
             None => {
@@ -251,7 +251,7 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
                         all,
                         Some(stage.qubits),
                     );
-                    within(out, below, stage, &blocks, all, planes);
+                    within(out, below, &blocks(stage), all, planes);
                 }
             }
         }
@@ -271,27 +271,39 @@ fn branches(last: bool) -> (&'static str, &'static str) {
     }
 }
 
-/// Writes the blocks within a stage: those of one kind (`plane 0`, `plane 1`) added up, or with `each`,
-/// one by one.
-fn within(
-    out: &mut String,
-    below: &str,
-    stage: &CallStage,
+/// Returns the block of a stage, followed by the blocks within it. If other `stages` are parts of the same
+/// block, only the blocks that have a part in this stage, with the costs of these parts.
+fn blocks_of(
+    inspection: &Inspection,
     blocks: &[BlockFigures],
-    all: u64,
-    each: bool,
-) {
-    let Some(start) = blocks
-        .iter()
-        .position(|block| Some(block.block) == stage.block)
-    else {
+    stages: &[CallStage],
+    stage: &CallStage,
+) -> Vec<BlockFigures> {
+    let mut blocks = blocks.iter();
+    let Some(own) = blocks.find(|block| Some(block.block) == stage.block) else {
+        return Vec::new();
+    };
+    let inner = blocks.take_while(|block| block.level > own.level);
+    let mut blocks: Vec<BlockFigures> = [own].into_iter().chain(inner).cloned().collect();
+    if stages.iter().filter(|one| one.block == stage.block).count() > 1 {
+        let parts = inspection.blocks_in(stage.instructions.clone());
+        blocks.retain_mut(|block| {
+            let part = parts.get(&block.block);
+            block.compute = part.copied().unwrap_or_default();
+            part.is_some()
+        });
+    }
+    blocks
+}
+
+/// Writes the blocks within a stage, the first of `blocks`: those of one kind (`plane 0`, `plane 1`) added up,
+/// or with `each`, one by one.
+fn within(out: &mut String, below: &str, blocks: &[BlockFigures], all: u64, each: bool) {
+    let Some((own, inner)) = blocks.split_first() else {
         return;
     };
-    let level = blocks[start].level;
-    let inner = blocks[start + 1..]
-        .iter()
-        .take_while(|block| block.level > level);
-    let inner: Vec<&BlockFigures> = inner.collect();
+    let level = own.level;
+    let inner: Vec<&BlockFigures> = inner.iter().collect();
     // Each chunk is a block with the blocks within it.
     let own = inner.chunk_by(|_, next| next.level > level + 1);
     let mut kinds: BTreeMap<&str, Vec<&[&BlockFigures]>> = BTreeMap::new();
