@@ -122,7 +122,7 @@ impl Turn {
 }
 
 /// The [`LevelPhases::word`] of each level.
-fn words(levels: &[(u64, u64)], phases: &LevelPhases) -> Vec<i64> {
+fn phase_words(levels: &[(u64, u64)], phases: &LevelPhases) -> Vec<i64> {
     if phases.bits() > DECIDED {
         return levels
             .iter()
@@ -163,7 +163,7 @@ impl<'a> MeanSignal<'a> {
     pub(crate) fn new(levels: &'a [(u64, u64)], phases: LevelPhases) -> Self {
         let total: u64 = levels.iter().map(|(_, paths)| paths).sum();
         let mut groups: Vec<Group> = Vec::with_capacity(levels.len());
-        let words = words(levels, &phases);
+        let words = phase_words(levels, &phases);
         for (n, (&(_, paths), word)) in levels.iter().zip(words).enumerate() {
             let weight = paths as f64 / total as f64;
             match groups.last_mut() {
@@ -516,7 +516,7 @@ mod tests {
             for reference in [0.0, 0.03, 0.5, 1.0] {
                 let phases = LevelPhases::new(slope, reference, bits, table).unwrap();
                 let of_circuit = levels.iter().map(|&(level, _)| phases.word(level));
-                let found = words(&levels, &phases);
+                let found = phase_words(&levels, &phases);
                 assert_eq!(found, of_circuit.collect::<Vec<_>>(), "{seed}, {reference}");
             }
         }
