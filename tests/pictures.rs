@@ -29,4 +29,5 @@ mod pictures {
     mod spheres;
     mod stopping;
     mod strata_of_thresholds;
+    mod suns;
 }

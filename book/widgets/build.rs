@@ -189,6 +189,7 @@ fn picture() -> Result<String, Box<dyn Error>> {
         camera: Camera::Perspective(camera),
         film,
         sky: None,
+        sun: None,
         materials,
         geometry,
         sampling,
@@ -225,7 +226,10 @@ fn picture() -> Result<String, Box<dyn Error>> {
          up: {up:?}.into(), vfov: {:?}, lens: None }}),",
         camera.vfov
     )?;
-    writeln!(out, "film: {film:?}, sky: None, materials: vec![")?;
+    writeln!(
+        out,
+        "film: {film:?}, sky: None, sun: None, materials: vec!["
+    )?;
     for (name, material) in materials {
         let made = match material {
             Material::Lambertian(part) => format!("Material::Lambertian({part:?})"),

@@ -4,7 +4,8 @@
 //! integrator stops at the same depth and never by chance. The export states explicitly what
 //! Mitsuba does differently by default: faces are flat, or smooth by the normals that qrt uses;
 //! surfaces other than dielectrics act on both sides; outside of glass there is vacuum, not air; a
-//! pixel is the mean over its square; the field of view is vertical.
+//! pixel is the mean over its square; the field of view is vertical. A sun becomes a disc that is so far away that
+//! directions to it differ by less than 1e-5.
 //!
 //! On smooth meshes the expected value differs at outlines, where the interpolated normal is behind
 //! the viewer or a direction is on different sides of the face and of its normal. Mitsuba has no rule
@@ -34,6 +35,7 @@
 
 use glam::DVec3;
 use qrt_drawing::escaped;
+use qrt_scene::lights::Cone;
 use qrt_scene::syntax::{Path, Problem, Renderer};
 use qrt_scene::valid::{Polygon, Scatter, Surface, ValidScene};
 use qrt_scene::{Camera, Checker, Film, Reflectance, Rgb, Sky};
@@ -128,6 +130,9 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     let mut meshes = Vec::new();
     if let Some(sky) = scene.scene().sky.filter(Sky::shines) {
         text.push_str(&emitter(&sky, stem, &mut meshes));
+    }
+    if let Some(sun) = scene.sun() {
+        text.push_str(&sun_disc(scene, sun));
     }
     let mut faces_of: Vec<Vec<Face<'_>>> = vec![Vec::new(); scene.surfaces().len()];
     let mut smooth = scene.smooth_faces().iter().peekable();
@@ -253,6 +258,34 @@ fn emitter(sky: &Sky, stem: &str, files: &mut Vec<MeshFile>) -> String {
     text
 }
 
+/// Distance of a sun's disc in Mitsuba, in distances from the eye to the scene's farthest corner: seen from any
+/// point of the scene, the disc is in the same directions up to 1e-5.
+const SUN_DISTANCE: f64 = 1e5;
+
+/// Returns the XML of a sun: Mitsuba has no cone of directions, so a far disc shines. It hides the sky behind it, and
+/// so has its radiance, too: that at the centre.
+fn sun_disc(scene: &ValidScene, (cone, radiance): (Cone, Rgb)) -> String {
+    let distance = SUN_DISTANCE * farthest(scene);
+    let radius = distance * cone.sin / (1.0 - cone.cap);
+    let [x, y] = cone.across.map(|across| across * radius);
+    let centre = eye(scene) + cone.axis * distance;
+    let mut radiance = radiance;
+    if let Some(sky) = scene.scene().sky {
+        let [horizon, zenith] = sky.gradient();
+        let height = sky.up.normalize().dot(cone.axis).max(0.0);
+        for (channel, radiance) in radiance.iter_mut().enumerate() {
+            *radiance += horizon[channel] + height * (zenith[channel] - horizon[channel]);
+        }
+    }
+    format!(
+        "    <shape type=\"disk\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n        \
+         <bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0, 0, 0\"/></bsdf>\n        \
+         <emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>\n    </shape>\n",
+        matrix([x, -y, -cone.axis, centre]),
+        triple(radiance)
+    )
+}
+
 /// Returns a name that is valid as a file name on every system.
 fn plain(name: &str) -> String {
     let plain = |c: char| {
@@ -265,17 +298,35 @@ fn plain(name: &str) -> String {
     name.chars().take(40).map(plain).collect()
 }
 
+/// Returns the place of the camera.
+fn eye(scene: &ValidScene) -> DVec3 {
+    match &scene.scene().camera {
+        Camera::Perspective(camera) => camera.eye,
+        Camera::Orthographic(camera) => camera.eye,
+    }
+}
+
+/// Returns the distance from the camera to the farthest corner of the scene, or 1 if that is more.
+fn farthest(scene: &ValidScene) -> f64 {
+    let eye = eye(scene);
+    let distances = scene.extent().map(|corner| (corner - eye).length());
+    distances.fold(1.0, f64::max)
+}
+
 fn sensor(scene: &ValidScene) -> String {
     let Film { width, height } = scene.scene().film;
     let camera = &scene.scene().camera;
-    let (eye, target, up) = match camera {
-        Camera::Perspective(c) => (c.eye, c.target, c.up),
-        Camera::Orthographic(c) => (c.eye, c.target, c.up),
+    let eye = eye(scene);
+    let (target, up) = match camera {
+        Camera::Perspective(c) => (c.target, c.up),
+        Camera::Orthographic(c) => (c.target, c.up),
     };
-    let farthest = scene
-        .extent()
-        .map(|corner| (corner - eye).length())
-        .fold(1.0, f64::max);
+    let farthest = farthest(scene);
+    // A sun's disc is farther away, and its edge farther than its centre.
+    let beyond = match scene.sun() {
+        Some((cone, _)) => SUN_DISTANCE / (1.0 - cone.cap),
+        None => 1.0,
+    };
     let (kind, view, scale) = match camera {
         Camera::Perspective(camera) => {
             let view = format!(
@@ -323,7 +374,7 @@ fn sensor(scene: &ValidScene) -> String {
     </sensor>
 "#,
         near = Number(NEAR * farthest),
-        far = Number(2.0 * farthest),
+        far = Number(2.0 * farthest * beyond),
         eye = triple(eye.to_array()),
         target = triple(target.to_array()),
         up = triple(up.to_array()),
@@ -376,7 +427,11 @@ fn is_parallelogram(face: &Polygon) -> bool {
 fn square_to(face: &Polygon) -> String {
     let [v0, v1, _, v3] = face.vertices;
     let (x, y) = (0.5 * (v1 - v0), 0.5 * (v3 - v0));
-    let columns = [x, y, x.cross(y).normalize(), v0 + x + y];
+    matrix([x, y, x.cross(y).normalize(), v0 + x + y])
+}
+
+/// Returns a matrix with these columns, by rows.
+fn matrix(columns: [DVec3; 4]) -> String {
     let rows = (0..3).map(|row| {
         let row = columns.map(|column| Number(column[row]).to_string());
         row.join(" ")

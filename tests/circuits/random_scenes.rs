@@ -102,6 +102,14 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
     if numbers.below(4) == 0 {
         text += "circuit: { uncompute: scoped }\n";
     }
+    if numbers.below(3) == 0 {
+        let direction = [eighths(numbers, 8), 0.5, eighths(numbers, 8)];
+        let angle = ["0.53", "20", "120"][numbers.below(3)];
+        let _ = writeln!(
+            text,
+            "sun: {{ direction: {direction:?}, angle: {angle}, radiance: 2 }}"
+        );
+    }
     text
 }
 

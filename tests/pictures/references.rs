@@ -205,6 +205,13 @@ fn discs_agree() {
     agrees_by_lamps("discs", 0.1);
 }
 
+/// A sun and a sky, beside a lamp, with shadows on matte and glossy things. By chance the sun is met rarely.
+#[test]
+fn a_sun_agrees() {
+    agrees("sun", 15, 0.2);
+    agrees_by_lamps("sun", 0.1);
+}
+
 /// Smooth meshes of glass, metal and clay in a room. Its file and materials have the form that Blender's
 /// exporter writes.
 #[test]

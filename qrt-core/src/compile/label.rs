@@ -95,7 +95,7 @@ pub enum StageName {
     Edges(u32),
     /// The plane of one face that a ray's line meets (by its place among these), within a search.
     Slot(u32),
-    /// The light of the sky at the end of a ray.
+    /// The light of the sky and the sun at the end of a ray.
     Sky,
     /// The side on which a ray meets a surface.
     Side,

@@ -30,7 +30,7 @@ pub enum TracerPart {
     Edges(usize),
     /// The plane of one face that the ray's line meets (by its place among these), within an intersection.
     Slot(usize),
-    /// The light of the sky, at the end of the ray of this depth.
+    /// The light of the sky and the sun, at the end of the ray of this depth.
     Sky(usize),
     /// The light that the vertex at the end of the ray of this depth emits towards the camera.
     Shade(usize),

@@ -10,7 +10,8 @@
 //! B_k(s) = N(s) + W(s) max over t that s sees of (F(s, t) Le(t) + B_{k+1}(t))
 //! ```
 //!
-//! Beside the places, `s` sees the sky, whose light counts wholly. If no lamp is sampled, `N` is 0 and `F` is 1. A path from the camera carries at most the greatest
+//! Beside the places, `s` sees the sky, whose light counts wholly, and before it the sun, whose light counts as
+//! that of a lamp. If no lamp is sampled, `N` is 0 and `F` is 1. A path from the camera carries at most the greatest
 //! `B_0` of the places that the camera sees, plus `Le` if the path may meet a lamp directly. Places
 //! are those of [`Places`]: sides of faces, or surfaces.
 
@@ -18,15 +19,15 @@ use super::bsdf::ScatterStage;
 use super::places::Places;
 use super::refraction::Refraction;
 
-/// An upper bound of the colour of every path, per channel, given the radiance of each surface and the
-/// greatest of the sky. It includes the emission at the primary
-/// hit only if `direct`. If there is a `refraction`, its bound replaces the weights of the glass
+/// An upper bound of the colour of every path, per channel, given the radiance of each surface, the
+/// greatest of the sky, and that of the sun. It includes the emission at the primary
+/// hit only if `direct`, and the sun where primary rays meet nothing only if `sees_sun`. If there is a `refraction`, its bound replaces the weights of the glass
 /// surfaces for which it holds.
 pub(crate) fn colour<const C: usize>(
     places: &Places,
-    (radiance, sky): (&[[f64; C]], [f64; C]),
+    (radiance, sky, sun): (&[[f64; C]], [f64; C], [f64; C]),
     scatters: &[ScatterStage<C>],
-    direct: bool,
+    [direct, sees_sun]: [bool; 2],
     refraction: Option<&Refraction>,
 ) -> [f64; C] {
     let emitted = |place: usize| &radiance[places.surface(place) as usize];
@@ -41,7 +42,8 @@ pub(crate) fn colour<const C: usize>(
             }
             let samples = scatter.samples_lights(surface);
             let lights = scatter.lights.as_ref();
-            let mut most = sky;
+            let counts = lights.map_or(1.0, |l| l.sun_bound(places, place, samples));
+            let mut most: [f64; C] = std::array::from_fn(|c| sky[c] + counts * sun[c]);
             for other in places.next(place) {
                 let factor =
                     lights.map_or(1.0, |l| l.emission_bound(places, [place, other], samples));
@@ -59,6 +61,9 @@ pub(crate) fn colour<const C: usize>(
         beyond = (0..places.len()).map(at).collect();
     }
     let mut bound = sky;
+    if sees_sun {
+        bound = std::array::from_fn(|c| sky[c] + sun[c]);
+    }
     for place in places.first() {
         for ((bound, beyond), emitted) in bound.iter_mut().zip(beyond[place]).zip(emitted(place)) {
             let emitted = if direct { *emitted } else { 0.0 };

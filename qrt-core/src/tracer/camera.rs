@@ -5,6 +5,7 @@ use super::ray::{Ray, Start};
 use super::vector::Vector;
 use super::{Arith, Coordinate, Sampled, vector};
 use glam::{DVec2, DVec3};
+use qrt_scene::lights::Cone;
 use qrt_scene::{Basis, Camera, Film, Perspective, Scene};
 use std::f64::consts::TAU;
 
@@ -181,6 +182,28 @@ impl View {
             high,
             DVec2::new(low.x, high.y),
         ])
+    }
+
+    /// The outline on the film of a square around the directions of a cone.
+    pub(super) fn cone_outline(&self, cone: &Cone) -> Seen {
+        /// The sine of the half angle above which the square would be too large.
+        const WIDE: f64 = 0.7;
+        let Basis { eye, forward, .. } = self.basis;
+        if !self.basis.perspective {
+            let across = (forward - cone.axis * forward.dot(cone.axis)).length();
+            let sees = forward.dot(cone.axis) > 0.0 && across <= cone.sin + 1e-9;
+            return if sees { Seen::Anywhere } else { Seen::Not };
+        }
+        if cone.sin > WIDE {
+            return Seen::Anywhere;
+        }
+        let [x, y] = cone
+            .across
+            .map(|across| across * cone.sin / (1.0 - cone.cap));
+        // Far from the eye in its own units, so that the sum keeps the direction.
+        let far = 1.0 + eye.length();
+        let corners = [x + y, x - y, -x - y, y - x];
+        self.within(&corners.map(|corner| eye + (cone.axis + corner) * far))
     }
 
     /// The points on the film of points of the scene.

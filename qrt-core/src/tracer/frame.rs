@@ -6,9 +6,11 @@ use super::bsdf::{Scattering, SmoothHit, Vertex};
 use super::lighting::{Leaves, Lighting};
 use super::lights::{Departure, LightStage};
 use super::ray::{NearestSearch, Ray, Start, point_at};
+use super::sky::SkyStage;
 use super::smooth::FlatHit;
+use super::sun::SunStage;
 use super::vector::{self, Vector};
-use super::{Arith, Named, Quantity, Stage, TracerPart};
+use super::{Arith, Named, Quantity, Stage, TracerPart, Work};
 
 /// The colour of each path, per channel, in radiance.
 ///
@@ -23,7 +25,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
 ) -> [A::Real; C] {
     let zero = cx.real(0.0);
     let mut colour = [zero; C];
-    if stage.surface_of.is_empty() && stage.sky.is_none() {
+    if stage.surface_of.is_empty() && stage.sky.is_none() && stage.sun.is_none() {
         return colour;
     }
     cx.enter(TracerPart::GenerateRay(0));
@@ -71,11 +73,18 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
                 front: hit.front,
             },
         );
-        if let Some(sky) = &stage.sky {
+        let sun = stage.sun.as_ref();
+        let sun = sun.filter(|sun| if depth == 0 { sun.is_seen() } else { counts });
+        if stage.sky.is_some() || sun.is_some() {
             let missed = math!(cx, goes && !hit.found);
             if cx.any(missed) {
                 cx.enter(TracerPart::Sky(depth));
-                let mut seen = sky.radiance(cx, &ray.direction);
+                let mut seen = background(
+                    cx,
+                    (stage.sky.as_ref(), sun),
+                    &ray.direction,
+                    departure.as_ref(),
+                );
                 if let Some(throughput) = throughput {
                     seen = vector::mul(cx, &throughput, &seen);
                 }
@@ -247,6 +256,52 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         cx.leave();
     }
     colour
+}
+
+/// The light of a direction in which nothing stands, per channel: that of the sky, and that of the sun.
+#[inline(always)]
+fn background<A: Arith, const C: usize>(
+    cx: &mut A,
+    (sky, sun): (Option<&SkyStage<C>>, Option<&SunStage<C>>),
+    direction: &Vector<A>,
+    departure: Option<&(&LightStage<C>, Departure<A>)>,
+) -> [A::Real; C] {
+    let none = [cx.real(0.0); C];
+    let behind = match sky {
+        Some(sky) => sky.radiance(cx, direction),
+        None => none,
+    };
+    let Some(sun) = sun else {
+        return behind;
+    };
+    let light = cx.apart(Sunlight {
+        sun,
+        direction,
+        departure,
+    });
+    vector::add(cx, &behind, &light)
+}
+
+/// The light of the sun on rays that meet nothing else, per channel; 0 on those beside it.
+struct Sunlight<'a, A: Arith, const C: usize> {
+    sun: &'a SunStage<C>,
+    direction: &'a Vector<A>,
+    departure: Option<&'a (&'a LightStage<C>, Departure<A>)>,
+}
+
+impl<A: Arith, const C: usize> Work<A> for Sunlight<'_, A, C> {
+    type Output = [A::Real; C];
+
+    #[inline(always)]
+    fn run(self, cx: &mut A) -> Self::Output {
+        let light = match self.departure {
+            Some((lights, departure)) => lights.sunlight(cx, departure, self.sun.radiance()),
+            None => self.sun.radiance().map(|radiance| cx.real(radiance)),
+        };
+        let none = [cx.real(0.0); C];
+        let within = self.sun.holds(cx, self.direction);
+        vector::select(cx, within, &light, &none)
+    }
 }
 
 impl<const C: usize> Stage<C> {

@@ -110,8 +110,10 @@ pub struct StageGeometry {
     /// The outward tolerance of edges in stage units: [`TOLERANCE`], or more if rays start far away and
     /// arrive less precisely.
     pub tolerance: f64,
-    /// Number of faces that emit, spheres included.
+    /// Number of faces that emit, spheres included, and of suns.
     pub emitters: u32,
+    /// The number of the sun among the emitters, after all others.
+    pub sun: Option<u32>,
     /// The spheres, in the order of the scene.
     pub balls: Vec<StageBall>,
 }
@@ -146,6 +148,7 @@ impl StageGeometry {
             scale,
             tolerance,
             emitters: 0,
+            sun: None,
             balls: Vec::with_capacity(balls.len()),
         };
         let mut on_plane: Vec<Vec<Face>> = Vec::new();
@@ -201,6 +204,12 @@ impl StageGeometry {
     /// The greatest distance of a point of the geometry from the origin, in stage units.
     pub fn radius(&self) -> f64 {
         self.points().map(DVec3::length).fold(0.0, f64::max)
+    }
+
+    /// Adds a sun to the emitters.
+    pub(super) fn add_sun(&mut self) {
+        self.sun = Some(self.emitters);
+        self.emitters += 1;
     }
 
     /// The corners of all polygons, and of the boxes around the spheres.

@@ -202,9 +202,9 @@ impl StageGeometry {
     ) -> A::Bool {
         let here = self.planes[number].emitters.clone();
         // If the ray ends on this plane, it does not cross the plane before; only another face may cover
-        // the lamp there. A ray between points of the scene crosses no outermost plane.
+        // the lamp there. A ray between points of the scene crosses no outermost plane, but a ray to the sun may.
         let all_here = here.len() == self.emitters as usize;
-        let passed = all_here || self.planes[number].outermost;
+        let passed = all_here || self.planes[number].outermost && self.sun.is_none();
         if passed && faces.clone().all(|face| face.covers.is_none()) {
             return hidden;
         }

@@ -55,7 +55,7 @@ impl<A: Arith, N: NearestSearch<A>, const C: usize> Work<A> for Lighting<'_, A, 
             return None;
         }
         let [area] = cx.rows(&lights.areas, point.lamp);
-        let square = math!(cx, dot(point.to, point.to));
+        let square = lights.square(cx, &point.to);
         let Lit { weight, factor } = scatter.light(
             cx,
             at,
@@ -65,6 +65,7 @@ impl<A: Arith, N: NearestSearch<A>, const C: usize> Work<A> for Lighting<'_, A, 
                 fall,
                 both,
                 square,
+                lamp: point.lamp,
                 area,
             },
             lights,

@@ -20,6 +20,8 @@
 //! next-event   G = A q / (pi r^4)            and rays of its own that meet a lamp count nothing
 //! ```
 //!
+//! A sun is a lamp at a distance of its own: see [`super::sun`].
+//!
 //! (Veach & Guibas 1995; Shirley, Wang & Zimmerman 1996.)
 
 use super::ball::StageBall;
@@ -27,23 +29,29 @@ use super::geometry::StageGeometry;
 use super::places::Places;
 use super::radiance::in_units;
 use super::smooth::SmoothStage;
+use super::sun::{DISTANCE, clean};
 use super::vector::{self, Vector};
 use super::{Arith, Coordinate, Sampled};
-use qrt_scene::Lights;
-use qrt_scene::lights::{self, Lamp, LitFace, Reached};
+use glam::DVec3;
+use qrt_scene::lights::{self, Cone, Lamp, LitFace, Reached};
 use qrt_scene::valid::Surface;
 use qrt_scene::valid::lights::MOST_PAIRS;
+use qrt_scene::{Lights, Rgb};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
+use std::ops::Range;
 
 /// The distance in stage units below which `r^4` has too few bits. If a lamp can be nearer, cosines
 /// and distance are divided one after the other.
 const NEAR: f64 = 0.3;
 
+/// Fraction by which the bound of a sun's factor exceeds the greatest, which circuits may round up.
+const SLACK: f64 = 1.0 / 64.0;
+
 /// The lamps of a scene and the light that they send to surfaces, for all depths.
 #[derive(Clone, Debug)]
 pub(super) struct Lamps {
     shapes: Vec<Shape>,
-    /// By lamp: its face.
+    /// By lamp except the sun: its face.
     faces: Vec<u32>,
     /// By lamp: its power.
     powers: Vec<f64>,
@@ -55,13 +63,14 @@ pub(super) struct Lamps {
 
 impl Lamps {
     /// Collects the lamps. `surface_of` contains the surface of each face, in the order of `surfaces`.
-    /// None if nothing emits, or if an emitter's shape cannot be sampled; a scene that samples lamps
-    /// has no emitter of that kind.
+    /// The sun is the last lamp. None if nothing emits, or if an emitter's shape cannot be sampled; a scene
+    /// that samples lamps has no emitter of that kind.
     pub(super) fn new(
         (geometry, smooth): (&StageGeometry, Option<&SmoothStage>),
         surfaces: &[&Surface],
         surface_of: &[u32],
         places: &Places,
+        sun: Option<&(Cone, Rgb)>,
     ) -> Option<Self> {
         let (mut shapes, mut faces, mut powers) = (vec![], vec![], vec![]);
         // Numbered as the geometry numbers its emitting faces.
@@ -82,6 +91,12 @@ impl Lamps {
             powers.push(shape.area() * radiance.iter().sum::<f64>());
             shapes.push(shape);
             faces.push(label);
+        }
+        if let Some((cone, radiance)) = sun {
+            // Over pi, as those of the other lamps: the power that arrives at the sphere around the scene.
+            let lit = PI * (cone.sin * geometry.radius()).powi(2);
+            powers.push(lit * radiance.iter().sum::<f64>());
+            shapes.push(Shape::Far(*cone));
         }
         if shapes.is_empty() {
             return None;
@@ -114,18 +129,37 @@ impl Lamps {
             };
             faces.iter().map(all).collect()
         };
-        let reached: Vec<Vec<Reached>> = (0..surfaces.len()).map(reached).collect();
+        let mut reached: Vec<Vec<Reached>> = (0..surfaces.len()).map(reached).collect();
         let number = faces.len();
         let forms = |(lamp, face): (usize, &u32)| {
             let by_surface = |surface: u32| reached[surface as usize][lamp].form;
             places.lit_by(geometry, (*face, number), is_smooth, by_surface)
         };
+        let mut forms: Vec<Vec<f64>> = faces.iter().enumerate().map(forms).collect();
+        if let Some((cone, _)) = sun {
+            // Spheres and smooth faces have all normals.
+            let of_side = |face: usize, side: f64| match geometry.frames.get(face) {
+                Some(frame) if !is_smooth(face as u32) => far_form(cone, frame.normal * side),
+                _ => far_form(cone, cone.axis),
+            };
+            let mut by_surface = vec![0.0; surfaces.len()];
+            for label in labels() {
+                let most = [1.0, -1.0].map(|side| of_side(label as usize, side));
+                let form: &mut f64 = &mut by_surface[surface_of[label as usize] as usize];
+                *form = form.max(most[0]).max(most[1]);
+            }
+            forms.push(places.by_side(of_side, |surface| by_surface[surface as usize]));
+            for (reached, form) in reached.iter_mut().zip(by_surface) {
+                let is_near = false;
+                reached.push(Reached { form, is_near });
+            }
+        }
         Some(Self {
-            forms: faces.iter().enumerate().map(forms).collect(),
-            reached,
             shapes,
             faces,
             powers,
+            reached,
+            forms,
         })
     }
 }
@@ -148,11 +182,11 @@ pub(crate) struct LightStage<const C: usize> {
     /// By column of the first coordinate: the lamp, and the place along its first edge.
     lamp_of: Vec<u32>,
     along: Sampled,
-    /// By lamp: corner and edges; centre and two radii of a disc; centre of a sphere.
+    /// By lamp: corner and edges; centre and two radii of a disc, also of the sun's; centre of a sphere.
     places: Vec<[f64; 9]>,
     /// By lamp: 1 if it is a triangle, else 0.
     triangles: Vec<u32>,
-    /// The points of lamps that are discs, if there are any.
+    /// The points of lamps that are discs, and of the sun, if there are any.
     discs: Option<DiscLamps>,
     /// The points of lamps that are spheres, if there are any.
     spheres: Option<SphereLamps>,
@@ -162,12 +196,15 @@ pub(crate) struct LightStage<const C: usize> {
     pub(super) areas: Vec<[f64; 1]>,
     /// By lamp: the radiance of its front, over the gain.
     pub(super) radiance: Vec<[f64; C]>,
-    /// By lamp: its surface, and its face.
+    /// By lamp except the sun: its surface, and its face.
     surfaces: Vec<u32>,
     faces: Vec<u32>,
     /// The power of two by which the factors of small lamps are computed larger, so that fixed-point
-    /// numbers have bits for them.
+    /// numbers have bits for them. That of the sun is its own, if there are other lamps.
     gain: f64,
+    /// By lamp: the inverse of its gain.
+    shrinks: Vec<[f64; 1]>,
+    far: Option<FarLamp>,
     /// By face: the entry of `areas` if the face is a lamp, else 0.
     area_of_face: Vec<[f64; 1]>,
     pub(super) receivers: Receivers,
@@ -177,6 +214,16 @@ pub(crate) struct LightStage<const C: usize> {
     most: [f64; 2],
     /// True if a lamp may be nearer than [`NEAR`].
     near: bool,
+}
+
+/// The sampling of a sun: see [`super::sun`].
+#[derive(Clone, Debug)]
+struct FarLamp {
+    /// Its number, the last of all lamps.
+    number: u32,
+    /// The vector by which a point at the edge is nearer than the sun's centre, along the axis.
+    sag: [f64; 3],
+    gain: f64,
 }
 
 /// The properties of a surface's scattering that the sampling of lamps depends on.
@@ -249,7 +296,7 @@ impl<const C: usize> LightStage<C> {
     /// `receivers` are by surface.
     pub(super) fn new(
         (lamps, places): (&Lamps, &Places),
-        radiance: &[[f64; C]],
+        (radiance, sun): (&[[f64; C]], Option<[f64; C]>),
         surface_of: &[u32],
         receivers: &[Receiver],
         LightSampling { depth, bits, mode }: LightSampling,
@@ -271,7 +318,8 @@ impl<const C: usize> LightStage<C> {
             pairs.map(|(reached, area)| reached.form * area).collect()
         };
         let (mut weighs, mut near) = (vec![], false);
-        let mut most: f64 = 0.0;
+        // By lamp: the greatest factor at surfaces whose own rays do not count.
+        let mut most = vec![0.0; areas.len()];
         for (surface, &samples) in samples.iter().enumerate() {
             let direct = next_event(surface);
             let greatest = direct.iter().copied().fold(0.0, f64::max);
@@ -283,7 +331,9 @@ impl<const C: usize> LightStage<C> {
             let matte = receivers[surface].is_projected;
             let alone = alone && matte;
             if samples && alone {
-                most = most.max(greatest);
+                for (most, direct) in most.iter_mut().zip(direct) {
+                    *most = f64::max(*most, direct);
+                }
             }
             if samples && matte {
                 near |= lamps.reached[surface].iter().any(|reached| reached.is_near);
@@ -310,13 +360,26 @@ impl<const C: usize> LightStage<C> {
         };
         let factors: Vec<Vec<f64>> = (0..places.len()).map(factor).collect();
         let samplers = (0..places.len()).filter(|&place| samples[places.surface(place) as usize]);
-        let greatest = samplers.flat_map(|place| &factors[place]);
-        let greatest = greatest.copied().fold(0.0, f64::max);
+        let samplers: Vec<usize> = samplers.collect();
         let all_matte = receivers
             .iter()
             .all(|r| !r.samples_lights || r.is_projected);
-        let gain = if all_matte { gain(greatest) } else { 1.0 };
-        let most = [most * gain, if gain > 1.0 { greatest * gain } else { 1.0 }];
+        // Lamps of the scene share a gain, and the sun has its own.
+        let (of_faces, all) = (lamps.faces.len(), areas.len());
+        let groups = [0..of_faces, of_faces..all].into_iter();
+        let groups: Vec<Range<usize>> = groups.filter(|group| !group.is_empty()).collect();
+        let (mut gains, mut weighed) = (Vec::with_capacity(all), 0.0);
+        for group in &groups {
+            let factors = samplers
+                .iter()
+                .flat_map(|&place| &factors[place][group.clone()]);
+            let greatest = factors.copied().fold(0.0, f64::max);
+            let gain = if all_matte { gain(greatest) } else { 1.0 };
+            weighed = f64::max(weighed, if gain > 1.0 { greatest * gain } else { 1.0 });
+            gains.extend(group.clone().map(|_| gain));
+        }
+        let alone = most.iter().zip(&gains).map(|(most, gain)| most * gain);
+        let most = [alone.fold(0.0, f64::max), weighed];
         let mut lamp_of = Vec::new();
         let mut starts = Vec::new();
         for (lamp, &columns) in (0..).zip(&columns) {
@@ -335,34 +398,49 @@ impl<const C: usize> LightStage<C> {
                 (f64::from(column - starts[lamp]) + 0.5) / f64::from(columns[lamp])
             }
         };
+        let gained = areas.iter().zip(&gains).map(|(area, gain)| [area * gain]);
+        let areas: Vec<[f64; 1]> = gained.collect();
         let mut area_of_face = vec![[0.0]; surface_of.len()];
         for (&face, &area) in lamps.faces.iter().zip(&areas) {
-            area_of_face[face as usize] = [area * gain];
+            area_of_face[face as usize] = area;
         }
+        let far = lamps.shapes.last().and_then(|shape| match shape {
+            Shape::Far(cone) => Some(FarLamp {
+                number: lamps.faces.len() as u32,
+                sag: clean(cone.axis * (-cone.cap * DISTANCE)).to_array(),
+                gain: gains[lamps.faces.len()],
+            }),
+            _ => None,
+        });
         let surface_of_lamp = lamps.faces.iter().map(|&face| surface_of[face as usize]);
         let surface_of_lamp: Vec<u32> = surface_of_lamp.collect();
         let scatters: Vec<bool> = receivers.iter().map(|r| r.scatters).collect();
         Some(Self {
             depth,
             bits,
-            lamp_of,
+            lamp_of: lamp_of.clone(),
             spheres: has_spheres.then(|| SphereLamps::new(&lamps.shapes, bits, place.clone())),
-            discs: has_discs.then(|| DiscLamps::new(&lamps.shapes, bits, place.clone())),
+            discs: has_discs.then(|| DiscLamps::new(&lamps.shapes, bits, (lamp_of, place.clone()))),
             along: Sampled::of_index(bits[0], place),
             places: lamps.shapes.iter().map(place_row).collect(),
             triangles: lamps.shapes.iter().map(is_triangle).collect(),
             normals: lamps.shapes.iter().map(normal_row).collect(),
-            areas: areas.iter().map(|&area| [area * gain]).collect(),
+            areas,
             radiance: surface_of_lamp
                 .iter()
-                .map(|&surface| radiance[surface as usize].map(|c| c / gain))
+                .map(|&surface| radiance[surface as usize])
+                .chain(sun)
+                .zip(&gains)
+                .map(|(radiance, gain)| radiance.map(|c| c / gain))
                 .collect(),
+            shrinks: gains.iter().map(|gain| [1.0 / gain]).collect(),
+            far,
             surfaces: surface_of_lamp,
             faces: lamps.faces.clone(),
             area_of_face,
             receivers: Receivers::new(&samples, &weighs, &scatters),
             factors,
-            gain,
+            gain: gains[0],
             most,
             near,
         })
@@ -393,14 +471,24 @@ impl<const C: usize> LightStage<C> {
         mine.map(|(_, &factor)| factor).fold(0.0, f64::max)
     }
 
+    /// An upper bound of the factor for the light of the sun on a ray of this depth from `place`. `samples` is as
+    /// in [`LightStage::emission_bound`].
+    pub(super) fn sun_bound(&self, places: &Places, place: usize, samples: bool) -> f64 {
+        match &self.far {
+            Some(_) if samples && self.receivers.weighs[places.surface(place) as usize] == 0 => 0.0,
+            Some(far) if samples => self.factors[place][far.number as usize],
+            _ => 1.0,
+        }
+    }
+
     /// An upper bound of the light that a lamp adds at a place, without the weight there.
     pub(super) fn light_bound(&self, place: usize, samples: bool) -> [f64; C] {
         let mut bound = [0.0; C];
         if samples {
             let lamps = self.radiance.iter().zip(&self.factors[place]);
-            for (radiance, factor) in lamps {
+            for ((radiance, factor), [shrink]) in lamps.zip(&self.shrinks) {
                 for (bound, radiance) in bound.iter_mut().zip(radiance) {
-                    *bound = f64::max(*bound, radiance * self.gain * factor);
+                    *bound = f64::max(*bound, radiance / shrink * factor);
                 }
             }
         }
@@ -427,7 +515,8 @@ impl<const C: usize> LightStage<C> {
         } else {
             cx.entry(&self.lamp_of, u)
         };
-        let mut first = cx.sampled(&self.along, u);
+        let along = cx.sampled(&self.along, u);
+        let mut first = along;
         let mut second = cx.centre(v, self.bits[1]);
         if self.triangles.contains(&1) {
             let triangle = cx.entry(&self.triangles, lamp);
@@ -441,6 +530,15 @@ impl<const C: usize> LightStage<C> {
         }
         let [x, y, z, ax, ay, az, bx, by, bz] = cx.rows(&self.places, lamp);
         let mut point = vector!(cx, [x, y, z] + [ax, ay, az] * first + [bx, by, bz] * second);
+        let mut from = *origin;
+        if let Some(far) = &self.far {
+            // All vertices see the sun in the same directions.
+            let is = cx.is(lamp, far.number);
+            let zero = cx.real(0.0);
+            let along = cx.select(is, along, zero);
+            point = vector!(cx, point + constant(far.sag) * along);
+            from = vector::select(cx, is, &[zero; 3], &from);
+        }
         let mut normal = None;
         if let Some(spheres) = &self.spheres {
             let round = spheres.point(cx, [u, v], lamp);
@@ -451,9 +549,18 @@ impl<const C: usize> LightStage<C> {
         }
         Point {
             lamp,
-            to: vector!(cx, point - *origin),
+            to: vector!(cx, point - from),
             normal,
         }
+    }
+
+    /// The square of the length of the vector `to` from a vertex to a point on a lamp.
+    #[inline(always)]
+    pub(super) fn square<A: Arith>(&self, cx: &mut A, to: &Vector<A>) -> A::Real {
+        if self.far.is_some() && self.places.len() == 1 {
+            return cx.real(DISTANCE * DISTANCE);
+        }
+        math!(cx, dot(*to, *to))
     }
 
     /// `F` of a Lambertian under the cosine map, or `G` if its own rays do not count; times the gain.
@@ -465,7 +572,11 @@ impl<const C: usize> LightStage<C> {
         towards: &Towards<A>,
     ) -> A::Real {
         let Towards {
-            both, square, area, ..
+            both,
+            square,
+            lamp,
+            area,
+            ..
         } = *towards;
         let (share, beside) = if self.near {
             // The product of both cosines.
@@ -478,7 +589,13 @@ impl<const C: usize> LightStage<C> {
         if self.receivers.weighing == Weighing::None {
             return math!(cx, div(share, beside, alone));
         }
-        let own = self.without_gain(cx, share);
+        let own = match &self.far {
+            Some(far) if far.gain != self.gain => {
+                let [shrink] = cx.rows(&self.shrinks, lamp);
+                math!(cx, share * shrink)
+            }
+            _ => self.without_gain(cx, share),
+        };
         if self.receivers.weighing == Weighing::All {
             return math!(cx, div(share, beside + own, weighed));
         }
@@ -577,6 +694,36 @@ impl<const C: usize> LightStage<C> {
     }
 }
 
+impl<const C: usize> LightStage<C> {
+    /// The light of the sun, of this radiance, on a ray that meets it: all of it if no lamp was sampled.
+    #[inline(always)]
+    pub(super) fn sunlight<A: Arith>(
+        &self,
+        cx: &mut A,
+        departure: &Departure<A>,
+        radiance: [f64; C],
+    ) -> [A::Real; C] {
+        let Some(far) = &self.far else {
+            return radiance.map(|radiance| cx.real(radiance));
+        };
+        let [area] = self.areas[far.number as usize];
+        let share = cx.scale(departure.density, area / (DISTANCE * DISTANCE));
+        let own = cx.scale(share, 1.0 / far.gain);
+        let most = self.most[1];
+        let balance = math!(cx, div(share, 1.0 + own, most));
+        let factor = math!(cx, select(departure.weighs, balance, 0.0));
+        radiance.map(|radiance| {
+            let weighted = cx.scale(factor, radiance / far.gain);
+            math!(cx, select(departure.samples, weighted, real(radiance)))
+        })
+    }
+}
+
+/// The bound of `q / r^4` for a sun's light on a face with this normal, as in [`Reached::form`].
+fn far_form(cone: &Cone, normal: DVec3) -> f64 {
+    cone.greatest_cosine(normal) * (1.0 + SLACK) / (DISTANCE * DISTANCE)
+}
+
 /// The gain of factors of which `greatest` is the greatest: 1 unless they are small.
 fn gain(greatest: f64) -> f64 {
     /// The greatest factor of which coarse numbers have enough bits.
@@ -608,6 +755,7 @@ pub(crate) struct Towards<A: Arith> {
     pub(super) both: A::Real,
     /// `r^2`
     pub(super) square: A::Real,
+    pub(super) lamp: A::Index,
     /// Area over probability and pi.
     pub(super) area: A::Real,
 }
@@ -625,6 +773,8 @@ pub(super) struct Departure<A: Arith> {
 enum Shape {
     Flat(Lamp),
     Round(StageBall),
+    /// A sun.
+    Far(Cone),
 }
 
 impl Shape {
@@ -632,6 +782,7 @@ impl Shape {
         match self {
             Self::Flat(lamp) => lamp.area,
             Self::Round(ball) => 4.0 * PI * ball.radius * ball.radius,
+            Self::Far(cone) => cone.solid_angle() * DISTANCE * DISTANCE,
         }
     }
 }
@@ -639,17 +790,22 @@ impl Shape {
 fn is_triangle(shape: &Shape) -> u32 {
     match shape {
         Shape::Flat(lamp) => u32::from(lamp.triangle),
-        Shape::Round(_) => 0,
+        Shape::Round(_) | Shape::Far(_) => 0,
     }
 }
 
+/// True for a disc, and for a sun, whose directions end on a cap above a disc.
 fn is_disc(shape: &Shape) -> bool {
-    matches!(shape, Shape::Flat(lamp) if lamp.disc)
+    match shape {
+        Shape::Flat(lamp) => lamp.disc,
+        Shape::Round(_) => false,
+        Shape::Far(_) => true,
+    }
 }
 
 /// The sampling of points on lamps that are discs, uniform by area and one-to-one: the square of the distance
 /// from the centre and the azimuth are uniform. Both coordinates are tables; a concentric map (Shirley & Chiu
-/// 1997) would need a quotient of them.
+/// 1997) would need a quotient of them. The points of a sun are uniform on the cap: see [`super::sun`].
 #[derive(Clone, Debug)]
 struct DiscLamps {
     /// By lamp: 1 if it is a disc, else 0.
@@ -661,18 +817,27 @@ struct DiscLamps {
 }
 
 impl DiscLamps {
-    /// `place` is that of each column along its lamp.
+    /// The lamp of each column, and its `place` along the lamp.
     fn new(
         shapes: &[Shape],
         bits: [u32; 2],
-        place: impl Fn(u32) -> f64 + Send + Sync + 'static,
+        (lamp_of, place): (Vec<u32>, impl Fn(u32) -> f64 + Send + Sync + 'static),
     ) -> Self {
+        let cap = |shape: &Shape| match shape {
+            Shape::Far(cone) => cone.cap,
+            _ => 0.0,
+        };
+        let caps: Vec<f64> = shapes.iter().map(cap).collect();
+        let distance = move |column: u32| {
+            let (place, cap) = (place(column), caps[lamp_of[column as usize] as usize]);
+            (place * (2.0 - place * cap) / (2.0 - cap)).sqrt()
+        };
         Self {
             is: shapes
                 .iter()
                 .map(|shape| u32::from(is_disc(shape)))
                 .collect(),
-            distance: Sampled::of_index(bits[0], move |column| place(column).sqrt()),
+            distance: Sampled::of_index(bits[0], distance),
             azimuth: azimuth(bits[1]),
         }
     }
@@ -727,7 +892,7 @@ impl SphereLamps {
         place: impl Fn(u32) -> f64 + Clone + Send + Sync + 'static,
     ) -> Self {
         let radius = |shape: &Shape| match shape {
-            Shape::Flat(_) => 0.0,
+            Shape::Flat(_) | Shape::Far(_) => 0.0,
             Shape::Round(ball) => ball.radius,
         };
         let heights = place.clone();
@@ -767,15 +932,17 @@ impl SphereLamps {
 }
 
 fn place_row(shape: &Shape) -> [f64; 9] {
-    let lamp = match shape {
-        Shape::Flat(lamp) => lamp,
-        Shape::Round(ball) => {
-            let [x, y, z] = ball.centre.to_array();
-            return [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        }
+    let (corner, edges) = match shape {
+        Shape::Flat(lamp) => (lamp.corner, lamp.edges),
+        Shape::Round(ball) => (ball.centre, [DVec3::ZERO; 2]),
+        Shape::Far(cone) => (
+            clean(cone.axis) * DISTANCE,
+            cone.across
+                .map(|across| clean(across) * (cone.sin * DISTANCE)),
+        ),
     };
-    let [a, b] = lamp.edges.map(|edge| edge.to_array());
-    let c = lamp.corner.to_array();
+    let [a, b] = edges.map(|edge| edge.to_array());
+    let c = corner.to_array();
     [c[0], c[1], c[2], a[0], a[1], a[2], b[0], b[1], b[2]]
 }
 
@@ -783,9 +950,10 @@ fn normal_row(shape: &Shape) -> [f64; 4] {
     let lamp = match shape {
         Shape::Flat(lamp) => lamp,
         Shape::Round(_) => return [0.0; 4],
+        // The sun faces every vertex, at the same distance.
+        Shape::Far(_) => return [0.0, 0.0, 0.0, -DISTANCE],
     };
     // A component of an axis-aligned normal that is only a rounding error becomes 0.
-    let clean = |c: f64| if c.abs() < f64::EPSILON { 0.0 } else { c };
-    let n = lamp.normal.to_array().map(clean);
+    let n = clean(lamp.normal).to_array();
     [n[0], n[1], n[2], lamp.normal.dot(lamp.corner)]
 }

@@ -51,6 +51,7 @@ mod search;
 mod sky;
 mod smooth;
 mod stage;
+mod sun;
 pub(crate) mod vector;
 
 pub use arith::{Arith, Axis, Coordinate, Named, Quantity, Segment, TracerPart, Work};

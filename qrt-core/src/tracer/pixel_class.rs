@@ -56,6 +56,8 @@ impl PixelClasses {
         let seen = lamps.map(|lamp| view.outline(lamp.outline()));
         let balls = scene.balls().iter().filter(|ball| emits(ball.surface));
         let seen = seen.chain(balls.map(|ball| view.box_outline(ball.corners())));
+        let sun = scene.sun().map(|(cone, _)| view.cone_outline(&cone));
+        let seen = seen.chain(sun);
         let film = [written.film.width, written.film.height];
         let mut outlines = Vec::new();
         for seen in seen {
@@ -77,6 +79,23 @@ impl PixelClasses {
         }
         Self {
             outlines: Some(outlines),
+        }
+    }
+
+    /// True if a camera ray of some pixel may meet the sun.
+    pub(crate) fn see_sun(scene: &ValidScene) -> bool {
+        let written = scene.scene();
+        let Some((cone, _)) = scene.sun() else {
+            return false;
+        };
+        let film = [written.film.width, written.film.height];
+        match camera::View::new(&written.camera, written.film).cone_outline(&cone) {
+            camera::Seen::Not => false,
+            // Rays of a lens go beside the pixel.
+            camera::Seen::Within(outline) => {
+                written.lens().is_some() || meets_pixels(&outline, [0, 0], film)
+            }
+            camera::Seen::Anywhere => true,
         }
     }
 

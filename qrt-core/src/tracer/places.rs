@@ -115,6 +115,19 @@ impl Places {
         }
     }
 
+    /// A number by place: `of_side` for a face and the sign of its side, or else `by_surface`.
+    pub(crate) fn by_side(
+        &self,
+        of_side: impl Fn(usize, f64) -> f64,
+        by_surface: impl Fn(u32) -> f64,
+    ) -> Vec<f64> {
+        let of = |place: usize| match self.seen {
+            Some(_) => of_side(place / 2, side(place)),
+            None => by_surface(self.surfaces[place]),
+        };
+        (0..self.len()).map(of).collect()
+    }
+
     /// An upper bound of `q / r^4` by place, for the light of face `lamp`, one of `lamps` lamps.
     /// `is_smooth` is true for faces with interpolated normals; `by_surface` gives the bound of a surface.
     pub(crate) fn lit_by(
@@ -153,7 +166,11 @@ fn before(geometry: &StageGeometry, place: usize, points: &[DVec3]) -> bool {
 /// True if one of the points is farther than `least` from the plane, towards this side of the face.
 fn beyond(geometry: &StageGeometry, place: usize, points: &[DVec3], least: f64) -> bool {
     let frame = &geometry.frames[place / 2];
-    let side = if place.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let rise = |point: &DVec3| side * frame.normal.dot(*point - frame.centre);
+    let rise = |point: &DVec3| side(place) * frame.normal.dot(*point - frame.centre);
     points.iter().any(|point| rise(point) > least)
+}
+
+/// 1 for the front of a face, -1 for its back.
+fn side(place: usize) -> f64 {
+    if place.is_multiple_of(2) { 1.0 } else { -1.0 }
 }

@@ -71,8 +71,8 @@ pub trait NearestSearch<A: Arith> {
     fn emitter(&self, cx: &mut A, ray: &Ray<A>, wanted: A::Bool) -> Hit<A>;
 
     /// True if anything stands between the start of `ray` and its end. The end is one length of its
-    /// direction away, on emitting face number `lamp` ([`super::Plane::emitters`]). Needed only where
-    /// `wanted` holds.
+    /// direction away, on emitting face number `lamp` ([`super::Plane::emitters`]), or beyond the scene if
+    /// `lamp` is the sun ([`super::StageGeometry::sun`]). Needed only where `wanted` holds.
     fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, wanted: A::Bool) -> A::Bool;
 }
 

@@ -32,7 +32,7 @@ use super::intersect::{constants, meets, within_outline};
 use super::polygon::Plane;
 use super::ray::{Hit, NearestSearch, Ray, Start};
 use super::{Arith, Stage, TracerPart};
-use plan::{Facet, Met, MetBound, Outer, Plan, Starts};
+use plan::{Facet, Met, MetBound, Outer, Plan, Starts, facets};
 use planner::Planner;
 
 /// The greatest thickness of planes in the search for convex bodies, in stage units. Corners from files
@@ -62,6 +62,7 @@ impl<'a> Search<'a> {
             transmits: &stage.transmits,
             parallel: (!stage.camera.perspective).then(|| stage.camera.fixed.into()),
             surface_of: &stage.surface_of,
+            sun: stage.sun.as_ref().map(|sun| *sun.cone()),
             ulp,
         };
         let components = convex::components(&edges);
@@ -368,14 +369,13 @@ impl Search<'_> {
     }
 
     /// Distinguishes the faces of a plane, at the point where the ray meets it.
-    fn resolve<A: Arith>(&self, cx: &mut A, ray: &Ray<A>, plan: &Plan, nearest: &mut Running<A>) {
-        let outer = plan
-            .outer
-            .iter()
-            .flat_map(|outer| outer.sides.iter().flatten());
-        let outer = outer.map(|side| &side.facet);
-        let bodies = plan.bodies.iter().flat_map(|body| &body.bounds);
-        let facets = outer.chain(bodies.filter_map(|bound| bound.facet.as_ref()));
+    fn resolve<'f, A: Arith>(
+        &self,
+        cx: &mut A,
+        ray: &Ray<A>,
+        facets: impl Iterator<Item = &'f Facet>,
+        nearest: &mut Running<A>,
+    ) {
         let found = nearest.face;
         for facet in facets.filter(|facet| !facet.is_plain()) {
             let point = [1, 2].map(|k| {
@@ -445,7 +445,7 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
         plan.balls.nearest(cx, ray, &mut nearest);
         let none = cx.index(NO_FACE);
         nearest.face = cx.select_index(gone, none, nearest.face);
-        self.resolve(cx, ray, plan, &mut nearest);
+        self.resolve(cx, ray, plan.facets(), &mut nearest);
         nearest.hit(cx, wanted)
     }
 
@@ -479,11 +479,23 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
 
     fn occluded(&self, cx: &mut A, ray: &Ray<A>, lamp: A::Index, _wanted: A::Bool) -> A::Bool {
         let plan = self.plan(ray);
-        let mut hidden = cx.truth(false);
-        let end = cx.real(1.0);
+        // Bodies are met before the ray leaves the scene. Only a ray to the sun does.
+        let mut exit = Running::new(cx, ray.t_max);
+        exit.distance = cx.real(1.0);
+        let mut gone = cx.truth(false);
+        for outer in &plan.sunward {
+            let outwards = self.outer(cx, ray, outer, &mut exit);
+            gone = math!(cx, gone || outwards);
+        }
+        self.resolve(cx, ray, facets(&plan.sunward), &mut exit);
+        let is_free = cx.is(exit.face, NO_FACE);
+        let mut hidden = match self.geometry.sun {
+            Some(sun) => math!(cx, cx.is(lamp, sun) && !is_free),
+            None => cx.truth(false),
+        };
         for (number, body) in plan.bodies_apart() {
             cx.enter(TracerPart::Body(number));
-            let (meets, _) = self.body(cx, ray, body, end);
+            let (meets, _) = self.body(cx, ray, body, exit.distance);
             hidden = math!(cx, hidden || meets);
             cx.leave();
         }
@@ -495,7 +507,8 @@ impl<A: Arith> NearestSearch<A> for Search<'_> {
                 .occluded_by(cx, *number, faces, &permuted, ray.from, lamp, hidden);
         }
         hidden = plan.mesh.occluded(cx, ray, hidden);
-        plan.balls.occluded(cx, ray, lamp, hidden)
+        hidden = plan.balls.occluded(cx, ray, lamp, hidden);
+        math!(cx, hidden && !gone)
     }
 }
 

@@ -6,13 +6,14 @@ use super::camera::{self, CameraStage, LensStage};
 use super::checker::Checkers;
 use super::geometry::StageGeometry;
 use super::lights::{Lamps, LightSampling, LightStage};
-use super::pixel_class::PixelClass;
+use super::pixel_class::{PixelClass, PixelClasses};
 use super::places::Places;
 use super::polygon::FaceFrame;
 use super::ray::{self, Ray};
 use super::refraction::Refraction;
 use super::sky::SkyStage;
 use super::smooth::SmoothStage;
+use super::sun::SunStage;
 use super::{Arith, bound};
 use glam::DVec3;
 use qrt_scene::valid::{Scatter, Surface, ValidScene};
@@ -53,6 +54,8 @@ pub struct Stage<const C: usize> {
     pub(crate) emitters: Emitters<C>,
     /// The light of directions in which nothing stands.
     pub(crate) sky: Option<SkyStage<C>>,
+    /// The lamp that is infinitely far away.
+    pub(crate) sun: Option<SunStage<C>>,
     /// Surfaces below this number scatter nothing.
     pub(crate) black: u32,
     /// The scattering towards each ray except the first.
@@ -122,6 +125,10 @@ impl<const C: usize> Stage<C> {
             .sky
             .as_ref()
             .and_then(|sky| SkyStage::new(sky, channels));
+        let sun = scene.sun();
+        if sun.is_some() {
+            geometry.add_sun();
+        }
         let sampling = &written.sampling;
         let lit = (0..depths.len()).any(|depth| sampling.light(depth).is_some());
         let transmits = |surface: &u32| surfaces[*surface as usize].transmits();
@@ -137,11 +144,15 @@ impl<const C: usize> Stage<C> {
                 &surfaces,
                 &surface_of,
                 &places,
+                sun.as_ref(),
             );
             (places, lamps)
         } else {
             (Places::surfaces(surfaces.len()), None)
         };
+        let direct = class == PixelClass::MayMeetLamp;
+        let sees_sun = direct && PixelClasses::see_sun(scene);
+        let sun = sun.map(|sun| SunStage::new(sun, channels, sees_sun));
         let squares = depths.iter().skip(1).map(|depth| (depth.bits, depth.map));
         let squares = squares.collect::<HashSet<_>>().len();
         let mut scatters: Vec<ScatterStage<C>> = Vec::with_capacity(depths.len());
@@ -160,7 +171,7 @@ impl<const C: usize> Stage<C> {
                     bits,
                     mode: sampling.lights,
                 };
-                let radiance = emitters.radiance();
+                let radiance = (emitters.radiance(), sun.as_ref().map(SunStage::radiance));
                 let numbers = 0..surfaces.len() as u32;
                 let receivers: Vec<_> = numbers.map(|surface| scatter.receiver(surface)).collect();
                 let lights =
@@ -176,24 +187,27 @@ impl<const C: usize> Stage<C> {
         let unit = scatters.iter().any(|scatter| scatter.asks_for_angles)
             || sky.as_ref().is_some_and(SkyStage::asks_for_directions)
             || !geometry.balls.is_empty()
+            || sees_sun
+            || sun.is_some() && reflects
             || reflects && camera::has_long_rays(&written.camera, written.film);
         let refraction = Refraction::new(&geometry, &surfaces, &surface_of, &starts);
-        let direct = class == PixelClass::MayMeetLamp;
         let bound = {
             let of = |refraction| {
                 let sky = sky.as_ref().map_or([0.0; C], SkyStage::most);
+                let sun = sun.as_ref().map_or([0.0; C], SunStage::radiance);
                 bound::colour(
                     &places,
-                    (emitters.radiance(), sky),
+                    (emitters.radiance(), sky, sun),
                     &scatters,
-                    direct,
+                    [direct, sees_sun],
                     refraction,
                 )
             };
             let (plain, by_solids) = (of(None), of(Some(&refraction)));
             std::array::from_fn(|c| by_solids[c].min(plain[c]))
         };
-        let limit = limit(bound, emitters.radiance());
+        let sunlight = sun.as_ref().map_or([0.0; C], SunStage::irradiance);
+        let limit = limit(bound, emitters.radiance(), sunlight);
         let balls = ball_rows(&geometry);
         // The frame of a sphere depends on the hit.
         let rows = geometry.frames.iter().map(frame_row);
@@ -225,8 +239,9 @@ impl<const C: usize> Stage<C> {
             checkers,
             reads_point,
             emitters,
-            every_hit: sky.is_some(),
+            every_hit: sky.is_some() || sun.is_some(),
             sky,
+            sun,
             black,
             scatters,
             starts,
@@ -246,6 +261,9 @@ impl<const C: usize> Stage<C> {
         self.emitters.in_units(self.bound);
         if let Some(sky) = &mut self.sky {
             sky.in_units(self.bound);
+        }
+        if let Some(sun) = &mut self.sun {
+            sun.in_units(self.bound);
         }
         for scatter in &mut self.scatters {
             if let Some(lights) = &mut scatter.lights {
@@ -376,10 +394,14 @@ impl<const C: usize> Stage<C> {
     }
 }
 
-/// The bound plus the amount that rounding may add, given the radiance of each emitter.
-fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]]) -> [f64; C] {
+/// The bound plus the amount that rounding may add, given the radiance of each emitter and the irradiance of the sun
+/// over pi.
+fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]], irradiance: [f64; C]) -> [f64; C] {
     std::array::from_fn(|c| {
-        let most = radiance.iter().map(|row| row[c]).fold(0.0, f64::max);
+        let most = radiance
+            .iter()
+            .map(|row| row[c])
+            .fold(irradiance[c], f64::max);
         bound[c] * (1.0 + ROUNDING) + FACING_AWAY * most
     })
 }

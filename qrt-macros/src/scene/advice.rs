@@ -32,6 +32,10 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
     ("box", "box: white { min: (-1, 0, -1), max: (1, 2, 1) }"),
     ("sky", "sky { radiance: rgb(1, 1, 1) }"),
+    (
+        "sun",
+        "sun { direction: (1, 2, 1), radiance: rgb(30000, 30000, 30000) }",
+    ),
     ("mesh", "mesh: white { obj: \"mesh.obj\" }"),
     ("depth", "depth primary { bits: (8, 8) }"),
     ("sampling", "sampling { path_bits: 12 }"),
@@ -65,6 +69,8 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("center", "center: (0, 1, 0)"),
     ("normal", "normal: (0, 1, 0)"),
     ("radius", "radius: 1"),
+    ("direction", "direction: (1, 2, 1)"),
+    ("angle", "angle: 0.53"),
     ("min", "min: (-1, 0, -1)"),
     ("max", "max: (1, 2, 1)"),
     ("horizon", "horizon: rgb(1, 1, 1)"),
@@ -91,7 +97,7 @@ pub(crate) fn record(name: &str) -> String {
     let key = match name {
         "perspective" | "orthographic" => "eye",
         "lambertian" => "albedo",
-        "emitter" | "sky" => "radiance",
+        "emitter" | "sky" | "sun" => "radiance",
         "sphere" => "radius",
         "disc" => "normal",
         "box" => "max",

@@ -9,11 +9,12 @@ use qrt_scene::syntax::{called, codes, listed, meant_by};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.
-pub(super) const ENTRIES: [&str; 21] = [
+pub(super) const ENTRIES: [&str; 22] = [
     "name",
     "camera",
     "film",
     "sky",
+    "sun",
     "material",
     "quad",
     "triangle",
@@ -231,7 +232,7 @@ impl Body {
             "box" => self.primitive("box", first, rest, place),
             "mesh" => self.primitive("mesh", first, rest, place),
             "depth" => self.depth(first, rest, place),
-            "sky" | "sampling" | "precision" | "comparator" | "counting" | "circuit"
+            "sky" | "sun" | "sampling" | "precision" | "comparator" | "counting" | "circuit"
             | "accuracy" | "budget" => {
                 let node = match self.braces(word, first, rest) {
                     Some((braces, inner)) => self.reader.record(word, inner, braces),

@@ -2,7 +2,7 @@
 
 use super::{code, read_text};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
-use qrt_scene::{Disc, Geometry, Scene};
+use qrt_scene::{Disc, Geometry, Scene, Sun};
 use std::path::Path;
 
 const CAMERA: &str = "camera: perspective { eye: (0, 1, 5), target: (0, 1, 0), vfov: 40 },";
@@ -73,6 +73,28 @@ fn a_disc_is_written_as_a_sphere_is() {
     let (_, faults) = read_text(&text, Path::new(""));
     let told = format!("{faults:?}");
     assert!(told.contains("`disk` is called `disc` here"), "{told}");
+}
+
+#[test]
+fn a_sun_is_written_as_a_sky_is() {
+    let entry = "film: 8x8, sun { direction: (1, 2, 3), radiance: rgb(3, 2, 1) }";
+    let expected = Sun {
+        direction: [1.0, 2.0, 3.0].into(),
+        angle: 0.53,
+        radiance: [3.0, 2.0, 1.0],
+    };
+    assert_eq!(scene(entry).sun, Some(expected));
+    assert_eq!(codes(&entry.replace("(1, 2, 3)", "(0, 0, 0)")), ["QRT0213"]);
+    let text = format!(
+        "scene Room {{ {CAMERA} {} }}",
+        entry.replace("sun", "directional")
+    );
+    let (_, faults) = read_text(&text, Path::new(""));
+    let told = format!("{faults:?}");
+    assert!(
+        told.contains("`directional` is called `sun` here"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -49,7 +49,8 @@ fn block(entry: &Entry) -> Option<String> {
             text
         }
         "sampling" => sampling(node)?,
-        "sky" | "precision" | "comparator" | "counting" | "circuit" | "accuracy" | "budget" => {
+        "sky" | "sun" | "precision" | "comparator" | "counting" | "circuit" | "accuracy"
+        | "budget" => {
             format!("{key} {},\n", record(key, node)?)
         }
         _ => return None,

@@ -1,4 +1,4 @@
-//! Lamps: polygons that emit, how points on them are sampled, and how strongly one may light a
+//! Lamps: polygons that emit and cones of directions, how points on them are sampled, and how strongly one may light a
 //! surface.
 //!
 //! At a vertex `x` with the unit normal `n`, a point `y` on a lamp of area `A` and unit normal `m`
@@ -12,9 +12,11 @@
 
 mod ball;
 mod bound;
+mod cone;
 
 pub use ball::{LitFace, polygon_distance, strongest_of};
 pub use bound::{Reached, strongest, strongest_form};
+pub use cone::Cone;
 
 use glam::DVec3;
 use std::f64::consts::PI;

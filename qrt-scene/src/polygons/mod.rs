@@ -46,6 +46,19 @@ pub fn main_axis(normal: DVec3) -> usize {
     (0..3).find(|&axis| size[axis] >= least).unwrap_or(2)
 }
 
+/// Returns the unit vector along `direction`; `None` if it is zero.
+pub(crate) fn unit_vector(direction: DVec3) -> Option<DVec3> {
+    // The size is divided out first, so that squares neither overflow nor vanish.
+    let size = direction.abs().max_element();
+    (size > 0.0).then(|| (direction / size).normalize())
+}
+
+/// Returns a unit vector across the unit vector `along`, parallel to an axis if `along` is.
+pub(crate) fn unit_across(along: DVec3) -> DVec3 {
+    let away = [DVec3::Y, DVec3::Z, DVec3::X][main_axis(along)];
+    (away - along * along.dot(away)).normalize()
+}
+
 /// The least and the greatest coordinates of `points`.
 pub(crate) fn bounds<P: Borrow<DVec3>>(points: impl Iterator<Item = P>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {

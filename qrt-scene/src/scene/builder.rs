@@ -3,7 +3,7 @@
 use super::{
     Accuracy, Budget, Camera, Circuit, Comparator, Counting, Cuboid, DepthSampling, Disc, Film,
     Geometry, Map, Material, Mesh, Orthographic, Perspective, Precision, Quad, Sampling, Scene,
-    Sky, Sphere, Triangle,
+    Sky, Sphere, Sun, Triangle,
 };
 use glam::DVec3;
 
@@ -81,6 +81,7 @@ impl Default for Scene {
             camera: Camera::default(),
             film: Film::default(),
             sky: None,
+            sun: None,
             materials: Vec::new(),
             geometry: Vec::new(),
             sampling: Sampling::default(),
@@ -225,6 +226,12 @@ impl SceneBuilder {
     /// Sets the light of directions in which nothing stands.
     pub fn sky(mut self, sky: Sky) -> Self {
         self.0.sky = Some(sky);
+        self
+    }
+
+    /// Sets the lamp that is infinitely far away.
+    pub fn sun(mut self, sun: Sun) -> Self {
+        self.0.sun = Some(sun);
         self
     }
 

@@ -62,6 +62,8 @@ record! {
     pub film: Film = part::<Film>();
     /// The light of directions in which nothing stands; black if it is left out.
     pub sky: Option<Sky> = Maybe(part::<Sky>()), or None;
+    /// A lamp that is infinitely far away; none if it is left out.
+    pub sun: Option<Sun> = Maybe(part::<Sun>()), or None;
     /// The materials, by names of your own: what surfaces do to light. They may be left out where
     /// meshes bring theirs.
     pub materials: Vec<(String, Material)> = Named(part::<Material>()), or Vec::new();
@@ -174,6 +176,27 @@ impl Sky {
             .as_flattened()
             .iter()
             .any(|&channel| channel > 0.0)
+    }
+}
+
+record! {
+    /// A lamp that is infinitely far away: a cone of directions with one radiance. It adds to the light of
+    /// the sky behind it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Sun = "the sun";
+    /// The direction from the scene towards the centre of the sun, of any length.
+    pub direction: DVec3 = point();
+    /// The angle of the cone, from edge to edge: the angular diameter of the sun, in degrees. Default 0.53, that
+    /// of the Sun as seen from the Earth.
+    pub angle: f64 = number(0.001, 180.0).below(), or 0.53;
+    /// The radiance of all directions in the cone, in linear RGB.
+    pub radiance: Rgb = RADIANCE;
+}
+
+impl Sun {
+    /// True if the sun gives light in any channel.
+    pub fn shines(&self) -> bool {
+        self.radiance.iter().any(|&channel| channel > 0.0)
     }
 }
 

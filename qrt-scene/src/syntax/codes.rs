@@ -94,6 +94,8 @@ codes! {
         "Write one `radiance`, or both `horizon` and `zenith`";
     CAMERA_ON_SPHERE = "QRT0212", "a camera that stands on the surface of a sphere",
         "Move `eye` inside the sphere or outside";
+    SUN = "QRT0213", "a sun whose `direction` is zero",
+        "Write the direction from the scene towards the sun, of any length above 0";
     UNUSED_MATERIAL = "QRT0220", "a material that nothing is made of",
         "Remove it, or give it to a primitive; it is only a warning";
     BLACK = "QRT0221", "a scene whose pictures are black",

@@ -3,7 +3,7 @@
 //! Tolerances are relative to the primitive's size, so a scene of 1e-6 units, or one 1e9 units from
 //! the origin, is treated like any other.
 
-use crate::polygons::{MOST_PAIRS, main_axis, mean_normals, unit_normal};
+use crate::polygons::{MOST_PAIRS, mean_normals, unit_across, unit_normal, unit_vector};
 use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
@@ -561,18 +561,10 @@ impl<'a> Build<'a> {
     }
 }
 
-/// The unit vector along `direction`; `None` if it is zero.
-fn unit_vector(direction: DVec3) -> Option<DVec3> {
-    // The size is divided out first, so that squares neither overflow nor vanish.
-    let size = direction.abs().max_element();
-    (size > 0.0).then(|| (direction / size).normalize())
-}
-
 /// Corners of a square around a disc, counterclockwise as seen from the side of the unit `normal`. Its
 /// edges are parallel to an axis where the plane allows it, which saves products in circuits.
 fn square_around(centre: DVec3, normal: DVec3, radius: f64) -> [DVec3; 4] {
-    let away = [DVec3::Y, DVec3::Z, DVec3::X][main_axis(normal)];
-    let first = (away - normal * normal.dot(away)).normalize() * radius;
+    let first = unit_across(normal) * radius;
     let second = normal.cross(first);
     [
         centre - first - second,

@@ -33,7 +33,8 @@ pub(super) fn check(valid: &mut ValidScene, problems: &mut Problems) {
         let mut faces = valid.surface_of_faces();
         faces.any(|surface| holds(&valid.materials[surface as usize]))
     };
-    let (emits, samples) = (any(Surface::emits), any(Surface::samples_lights));
+    let emits = any(Surface::emits) || valid.sun().is_some();
+    let samples = any(Surface::samples_lights);
     if !emits || !samples {
         let asked = is_asked.then(|| Path::root().key("sampling").key("lights"));
         if let Some(place) = written.map(light).or(asked).filter(|_| emits) {
@@ -157,13 +158,13 @@ fn faces(valid: &ValidScene) -> Vec<(LitFace<'_>, &Surface)> {
     polygons.chain(balls).zip(surfaces).collect()
 }
 
-/// Number of shapes of lamps, after those that are cut.
+/// Number of shapes of lamps, after those that are cut, and with the sun.
 fn count_lamps(valid: &ValidScene) -> usize {
     let emits = |surface: u32| valid.materials[surface as usize].emits();
     let polygons = valid.polygons.iter().filter(|face| emits(face.surface));
     let polygons = polygons.map(|face| 1 + usize::from(is_cut(valid, face)));
     let balls = valid.balls.iter().filter(|ball| emits(ball.surface));
-    polygons.sum::<usize>() + balls.count()
+    polygons.sum::<usize>() + balls.count() + usize::from(valid.sun().is_some())
 }
 
 /// True if `polygon` emits and cannot be sampled in one piece.

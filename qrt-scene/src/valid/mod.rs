@@ -21,12 +21,13 @@ pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
 use crate::expr::{Expr, Variable};
+use crate::lights::Cone;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
 use crate::scene::{
     Bsdf, Checker, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Reflectance, Rgb,
-    Scene,
+    Scene, Sun,
 };
 pub use crate::syntax::InvalidScene;
 use crate::syntax::{self, Path, Place, Problem, Problems};
@@ -256,6 +257,11 @@ impl ValidScene {
     pub fn balls(&self) -> &[Ball] {
         &self.balls
     }
+    /// The directions of the sun and its radiance; none if it is black.
+    pub fn sun(&self) -> Option<(Cone, Rgb)> {
+        let sun = self.scene.sun.filter(Sun::shines)?;
+        Some((Cone::new(sun.direction, sun.angle)?, sun.radiance))
+    }
     /// The surface of each face: of the polygons, and then of the spheres.
     pub fn surface_of_faces(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
         (0..self.polygons.len() + self.balls.len()).map(|face| self.surface_of_face(face))
@@ -393,7 +399,7 @@ pub(crate) fn check(
     problems.finalize();
     crate::scene::finalize::sample_lens(&mut scene);
     camera::check(&scene.camera, &mut problems);
-    sky::check(scene.sky.as_ref(), &mut problems);
+    sky::check(&scene, &mut problems);
     sampling::check(&scene, &mut problems);
     counting::check(&scene, &mut problems);
     let mut warnings = Vec::new();

@@ -67,7 +67,8 @@ fn unused_materials(valid: &ValidScene) -> impl Iterator<Item = Problem> {
 /// A warning if every picture of the scene is black.
 fn unlit(valid: &ValidScene) -> Option<Problem> {
     let shines = |ball: &Ball| valid.materials[ball.surface as usize].emits();
-    if valid.scene.sky.is_some_and(|sky| sky.shines()) || valid.balls.iter().any(shines) {
+    let is_sunny = valid.scene.sky.is_some_and(|sky| sky.shines()) || valid.sun().is_some();
+    if is_sunny || valid.balls.iter().any(shines) {
         return None;
     }
     let lamps = || {

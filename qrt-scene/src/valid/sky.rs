@@ -1,14 +1,25 @@
-//! Checks that a sky has one radiance or a gradient, and a direction of its zenith.
+//! Checks that a sky has one radiance or a gradient, and that it and the sun have a direction.
 
-use crate::scene::{Sky, finalize};
+use crate::scene::{Scene, Sky, finalize};
 use crate::syntax::{Path, Problems, Sky as Fault};
 use glam::DVec3;
 
-pub(super) fn check(sky: Option<&Sky>, problems: &mut Problems) {
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    if let Some(sky) = &scene.sky {
+        check_sky(sky, problems);
+    }
+    let direction = Path::root().key("sun").key("direction");
+    let is_zero = scene.sun.is_some_and(|sun| sun.direction == DVec3::ZERO);
+    if is_zero && !problems.touches(&direction) {
+        problems.add(direction, Fault::NoSunDirection);
+    }
+}
+
+fn check_sky(sky: &Sky, problems: &mut Problems) {
     let path = Path::root().key("sky");
-    let Some(sky) = sky.filter(|_| !problems.touches(&path)) else {
+    if problems.touches(&path) {
         return;
-    };
+    }
     let written = [sky.radiance, sky.horizon, sky.zenith].map(|part| part.is_some());
     if let Some(problem) = finalize::sky_fault(&path, written) {
         problems.push(problem);

@@ -1,7 +1,7 @@
 //! An example of each block of a scene.
 
 /// Blocks and examples of them; `book_listings` checks that each is a part of a scene.
-pub(crate) const EXAMPLES: [(&str, &str); 13] = [
+pub(crate) const EXAMPLES: [(&str, &str); 14] = [
     ("name", "name: first-scene\n"),
     (
         "camera",
@@ -14,6 +14,10 @@ camera:
     (
         "sky",
         "sky: { horizon: [1, 1, 1], zenith: [0.5, 0.7, 1] }\n",
+    ),
+    (
+        "sun",
+        "sun: { direction: [-1, 2, 1], angle: 0.53, radiance: [60000, 55000, 50000] }\n",
     ),
     (
         "materials",
@@ -69,9 +73,10 @@ sampling:
 ];
 
 /// Chapters that explain a block further.
-pub(crate) const CHAPTERS: [(&str, &str, &str); 10] = [
+pub(crate) const CHAPTERS: [(&str, &str, &str); 11] = [
     ("camera", "Rays in superposition", "superposition.md"),
     ("sky", "Spheres, a sky and a lens", "spheres.md"),
+    ("sun", "Light sampling", "lights.md"),
     ("materials", "Shading and materials", "shading.md"),
     ("geometry", "Find intersection", "intersection.md"),
     ("sampling", "Dense sampling", "sampling.md"),

@@ -17,6 +17,8 @@ const MOST_COMPARED: usize = 1 << 24;
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Plan {
     pub(super) outer: Vec<Outer>,
+    /// The outer planes through which rays to the sun may leave the scene.
+    pub(super) sunward: Vec<Outer>,
     /// Planes that are tested as [`StageGeometry`] tests them, and the places of their faces.
     pub(super) planes: Vec<(usize, Vec<usize>)>,
     pub(super) bodies: Vec<Met>,
@@ -32,14 +34,14 @@ pub(super) struct Plan {
 }
 
 /// An outer plane, or two that face each other.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outer {
     /// The plane that the ray meets if the slope towards it is above zero, with the scene below it; and
     /// the plane that the ray meets if the slope is below zero.
     pub(super) sides: [Option<OuterSide>; 2],
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct OuterSide {
     pub(super) plane: usize,
     pub(super) facet: Facet,
@@ -49,7 +51,7 @@ pub(super) struct OuterSide {
 
 /// The faces of one plane. A ray meets the first face that passes its tests. If the last face has no
 /// tests, every tested point is on one of the faces.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Facet {
     pub(super) axis: usize,
     pub(super) faces: Vec<(u32, Outline)>,
@@ -93,11 +95,24 @@ pub(super) enum Starts {
 }
 
 impl Plan {
+    /// The facets of all outer planes and bodies.
+    pub(super) fn facets(&self) -> impl Iterator<Item = &Facet> {
+        let bodies = self.bodies.iter().flat_map(|body| &body.bounds);
+        let bodies = bodies.filter_map(|bound| bound.facet.as_ref());
+        facets(&self.outer).chain(bodies)
+    }
+
     /// The bodies without lamps, with their numbers.
     pub(super) fn bodies_apart(&self) -> impl Iterator<Item = (usize, &Met)> {
         let bodies = self.bodies.iter().enumerate();
         bodies.filter(|(_, body)| !body.at_lamps)
     }
+}
+
+/// The facets of outer planes.
+pub(super) fn facets(outer: &[Outer]) -> impl Iterator<Item = &Facet> {
+    let sides = outer.iter().flat_map(|outer| outer.sides.iter().flatten());
+    sides.map(|side| &side.facet)
 }
 
 impl Facet {
@@ -241,6 +256,7 @@ impl Planner<'_> {
                 .collect(),
         });
         Plan {
+            sunward: self.sunward(&outer),
             outer,
             planes: planes.collect(),
             bodies: bodies.collect(),
@@ -249,6 +265,29 @@ impl Planner<'_> {
             emitting: self.planes_with(|place| self.geometry.faces[place].is_asked_first()),
             before_lamps: before_lamps.collect(),
         }
+    }
+
+    /// The outer planes, and sides of them, that rays to the sun may cross on their way out.
+    fn sunward(&self, outer: &[Outer]) -> Vec<Outer> {
+        let Some(cone) = &self.sun else {
+            return Vec::new();
+        };
+        let is_crossed = |side: &OuterSide, sign: f64| {
+            let plane = &self.geometry.planes[side.plane];
+            let mut normal = [sign; 3];
+            for (k, part) in plane.form.into_iter().enumerate() {
+                normal[(plane.axis + k + 1) % 3] = sign * part;
+            }
+            cone.greatest_cosine(DVec3::from_array(normal).normalize()) > 0.0
+        };
+        let crossed = outer.iter().map(|outer| {
+            let [up, down] = &outer.sides;
+            let sides = [(up, 1.0), (down, -1.0)]
+                .map(|(side, sign)| side.clone().filter(|side| is_crossed(side, sign)));
+            Outer { sides }
+        });
+        let is_left = |outer: &Outer| outer.sides.iter().any(Option::is_some);
+        crossed.filter(is_left).collect()
     }
 
     /// The planes that have faces which are `wanted` (by place), and these faces.

@@ -3,6 +3,7 @@
 use crate::tracer::convex::Edges;
 use crate::tracer::geometry::StageGeometry;
 use glam::DVec3;
+use qrt_scene::lights::Cone;
 
 /// The facts from which the searches of rays are planned.
 pub(super) struct Planner<'a> {
@@ -16,6 +17,8 @@ pub(super) struct Planner<'a> {
     pub(super) parallel: Option<DVec3>,
     /// By face label: its surface.
     pub(super) surface_of: &'a [u32],
+    /// The directions of the sun.
+    pub(super) sun: Option<Cone>,
     /// An eye within this distance of a plane may be on either side, or on the plane.
     pub(super) ulp: f64,
 }

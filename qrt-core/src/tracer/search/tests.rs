@@ -16,6 +16,7 @@ pub(super) mod circuit;
 mod discs;
 mod found;
 mod scenes;
+mod suns;
 
 /// Random numbers in 0..1, the same on every run.
 pub(super) struct Chance(pub(super) u64);
@@ -263,6 +264,8 @@ struct Compared {
     hits: usize,
     lamps: usize,
     shadows: usize,
+    /// Rays that reach the sun.
+    lit: usize,
     /// Descriptions of the differences between the two searches.
     differ: Vec<String>,
 }
@@ -368,8 +371,10 @@ impl Comparison<'_> {
                     t_max: self.stage.t_max,
                     start: Start::Surface,
                 };
-                if !transmits {
-                    self.shadow(&ray, viewer);
+                match &self.stage.sun {
+                    Some(sun) if !transmits => self.sunlight(&ray, viewer, sun.cone()),
+                    None if !transmits => self.shadow(&ray, viewer),
+                    _ => {}
                 }
             }
         }

@@ -111,6 +111,6 @@ fn a_setting_that_cannot_choose_among_lamps_is_left_out() {
     let mut lattices = of(&scene, Sweep::Paths).into_iter();
     let few = lattices.find(|setting| setting.sequence == Sequence::ProductLattice);
     let why = bench.row(few.unwrap()).unwrap().unwrap_err();
-    assert_eq!(why, "2 faces emit, and 0 bits choose among 1");
+    assert_eq!(why, "there are 2 lamps, and 0 bits choose among 1");
     assert!(bench.row(lattices.next_back().unwrap()).unwrap().is_ok());
 }

@@ -23,7 +23,7 @@ pub(super) struct LargeFace {
     offset: f64,
     edge_tests: Vec<EdgeTest>,
     disc: Option<DiscTest>,
-    /// True if the face may stand between a point of the scene and a point on a lamp.
+    /// True if the face may stand between a point of the scene and a point on a lamp, or the sun.
     pub(super) blocks: bool,
 }
 
@@ -59,7 +59,8 @@ impl LargeFace {
     pub(super) fn new(geometry: &StageGeometry, rank: u32, plane: u32) -> Self {
         let on = &geometry.planes[plane as usize];
         // The same condition as in a loop over all faces: see `StageGeometry::occluded`.
-        let passed = on.outermost || on.emitters.len() == geometry.emitters as usize;
+        let passed = on.outermost && geometry.sun.is_none()
+            || on.emitters.len() == geometry.emitters as usize;
         let mut beside = geometry.faces_of(plane as usize).iter();
         Self {
             rank,

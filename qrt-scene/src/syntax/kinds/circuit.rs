@@ -23,7 +23,7 @@ problems! {
             "the depths are {rays} rays: a path has {most} at most"
             help "use fewer depths";
         FewLightBits { lamps: usize, bits: u32, needed: u32 } = FEW_LIGHT_BITS
-            { format!("{lamps} faces emit, and {bits} bits choose among {}", 1_u64 << bits) }
+            { format!("there are {lamps} lamps, and {bits} bits choose among {}", 1_u64 << bits) }
             help { Some(if *needed > 16 {
                 "more than 65,536 lamps cannot be sampled: write `light: none`".to_owned()
             } else {

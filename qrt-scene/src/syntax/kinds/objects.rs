@@ -32,7 +32,7 @@ problems! {
     /// Problems with lamps that light nothing.
     Unlit {
         NoLamp = BLACK "nothing emits: every picture of this scene is black"
-            help "give a primitive an `emitter` material, or the scene a `sky`";
+            help "give a primitive an `emitter` material, or the scene a `sky` or a `sun`";
         LampsAway { is_disc: bool } = BLACK
             "every lamp shines away from all that the camera sees: the picture is black"
             label "this lamp emits on its other side"
@@ -73,7 +73,7 @@ problems! {
             help "move `eye` by a thousandth of the radius, inside or outside" also "the sphere";
     }
 
-    /// Problems with the sky.
+    /// Problems with the sky and the sun.
     Sky {
         TwoSkies { key: &'static str } = SKY "`{key}` stands beside `radiance`, which is that of all directions"
             help "keep either `radiance`, or both `horizon` and `zenith`" also "the radiance of all directions";
@@ -83,6 +83,8 @@ problems! {
             help "write `radiance: [1, 1, 1]`, or both `horizon` and `zenith`";
         NoUp = SKY "the sky's `up` is zero: it has no direction"
             help "leave it out for [0, 1, 0]";
+        NoSunDirection = SUN "the sun's `direction` is zero: it has no direction"
+            help "write the direction from the scene towards the sun, such as [1, 2, 1]";
     }
 
     /// Problems with a primitive's shape.

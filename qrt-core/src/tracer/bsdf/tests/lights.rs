@@ -72,6 +72,7 @@ fn towards((incoming, distance, cos): (Direction, f64, f64), area: f64) -> Towar
         fall,
         both: rise * fall,
         square: distance * distance,
+        lamp: 0,
         area,
     }
 }
