@@ -3,6 +3,7 @@
 
 use crate::common::command::Folder;
 use exr::prelude as openexr;
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
@@ -254,6 +255,58 @@ geometry:
   - disc: { center: [0, 0, 1], normal: [0, 0, 2], radius: 1, scale: 0.25, rotate: [0, 90, 0], material: glass }
 sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }], lights: none }
 ";
+
+/// A floor in the sun, seen from the side.
+const SUNNY: &str = "
+name: sunny
+camera: { perspective: { eye: [0, 1, 3], target: [0, 0, 0], vfov: 60 } }
+film: { width: 4, height: 2 }
+sky: { horizon: [1, 2, 3], zenith: [2, 2, 2] }
+sun: { direction: [3, 4, 0], angle: 10, radiance: [50, 40, 30] }
+materials: { grey: { lambertian: { albedo: 0.5 } } }
+geometry:
+  - disc: { center: [0, 0, 0], normal: [0, 1, 0], radius: 2, material: grey }
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
+";
+
+/// A sun is a far disc that faces the scene. It has the sun's angle, the radiance of the sun and of the sky behind it,
+/// and is within the far end of the camera's view.
+#[test]
+fn a_sun_is_a_far_disc_for_mitsuba() {
+    let folder = Folder::with("sunny.yaml", SUNNY);
+    folder.works(&["export", "sunny.yaml", "--format", "mitsuba"]);
+    let text = String::from_utf8(folder.read("sunny.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let value = |name: &str| {
+        let mut nodes = xml.descendants();
+        let node = nodes.find(|node| node.attribute("name") == Some(name));
+        node.and_then(|node| node.attribute("value")).unwrap()
+    };
+    assert_eq!(value("radiance"), "51.8, 42, 32.2");
+    let shape = xml.descendants().find(|node| {
+        let mut parts = node.descendants();
+        node.has_tag_name("shape") && parts.any(|part| part.has_tag_name("emitter"))
+    });
+    let shape = shape.unwrap();
+    assert_eq!(shape.attribute("type"), Some("disk"));
+    let mut parts = shape.descendants();
+    let matrix = parts.find(|node| node.has_tag_name("matrix")).unwrap();
+    let matrix = matrix.attribute("value").unwrap().split(' ');
+    let matrix: Vec<f64> = matrix.map(|number| number.parse().unwrap()).collect();
+    let [x, y, normal, centre] =
+        [0, 1, 2, 3].map(|k| DVec3::from_array([0, 1, 2].map(|row| matrix[4 * row + k])));
+    let axis = DVec3::new(0.6, 0.8, 0.0);
+    assert!((normal + axis).length() < 1e-12, "{normal}");
+    let distance = (centre - DVec3::new(0.0, 1.0, 3.0)).dot(axis);
+    assert!(distance > 1e5 && (centre / distance - axis).length() < 2e-5);
+    let radius = distance * 5.0_f64.to_radians().tan();
+    for edge in [x, y] {
+        assert!((edge.length() / radius - 1.0).abs() < 1e-9 && edge.dot(axis).abs() < 1e-6);
+    }
+    assert!((x.cross(y).normalize() - normal).length() < 1e-9);
+    let far: f64 = value("far_clip").parse().unwrap();
+    assert!(far > distance.hypot(radius), "{far}, {distance}");
+}
 
 /// Mitsuba's disc is the unit disc of z = 0 with the normal z: a lamp's and any other's matrix takes it to
 /// the disc.

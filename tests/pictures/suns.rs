@@ -6,6 +6,8 @@
 
 use super::spheres::seen;
 use crate::common::scene::written;
+use glam::DVec3;
+use qrt::core::tracer::{PixelClass, PixelClasses, Stage};
 use qrt::lab::verify::{VerifyOptions, verify};
 use qrt::prelude::*;
 use std::fmt::Write as _;
@@ -42,6 +44,13 @@ materials:
 
 const FLOOR: &str =
     "  - quad: { vertices: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: grey }\n";
+
+/// A level disc.
+fn disc(center: [f64; 3], radius: f64) -> String {
+    format!(
+        "  - disc: {{ center: {center:?}, normal: [0, 1, 0], radius: {radius}, material: grey }}\n"
+    )
+}
 
 fn lit(lights: &str, path_bits: u32) -> String {
     let light = if lights == "none" {
@@ -136,7 +145,7 @@ fn a_setting_sun_lights_alike_in_every_way() {
 #[test]
 fn a_roof_halves_the_sun_below_its_edge() {
     let angle = 10.0;
-    // The penumbra is 1 m wide and 0.0875 m to either side.
+    // The penumbra ends 0.5 tan(5 degrees) = 0.044 to either side.
     let roof = |edge: f64| {
         format!(
             "  - quad: {{ vertices: [[{edge}, 0.5, 1], [1, 0.5, 1], [1, 0.5, -1], [{edge}, 0.5, -1]], material: grey }}\n"
@@ -153,9 +162,20 @@ fn a_roof_halves_the_sun_below_its_edge() {
         };
         (0..100).map(strip).collect()
     };
+    // Beside a hundred small faces, a large one is tested before the hierarchy.
+    let crowd: String = (0..100)
+        .map(|k| {
+            let x = 0.5 + k as f64 / 250.0;
+            disc([x, 0.1, 0.9], 0.001)
+        })
+        .collect();
     for (edge, part) in [(0.0, 0.5), (-0.1, 0.0), (0.1, 1.0)] {
         for lights in ["none", "auto", "mis", "next-event"] {
-            for (what, roof) in [("roof", roof(edge)), ("strips", strips(edge))] {
+            for (what, roof) in [
+                ("roof", roof(edge)),
+                ("strips", strips(edge)),
+                ("large", roof(edge) + &crowd),
+            ] {
                 let blocks = [
                     sun([0.0, 1.0, 0.0], angle, 4.0),
                     format!("geometry:\n{FLOOR}{roof}"),
@@ -397,4 +417,52 @@ fn circuits_of_suns_compute_what_floating_point_does() {
         let report = verify(&scene, &VerifyOptions::default()).unwrap();
         assert!(report.holds(), "{report:?}");
     }
+}
+
+/// The pixels that may show the sun are those whose square has a direction in the cone. Only their scale includes its
+/// radiance.
+#[test]
+fn pixels_beside_the_sun_have_a_smaller_scale() {
+    let angle = 8.0;
+    let text = format!(
+        "name: test
+camera: {{ perspective: {{ eye: [0, 0.5, 0], target: [1, 0.5, 0], up: [0, 1, 0], vfov: 60 }} }}
+film: {{ width: 24, height: 24 }}
+materials: {{ grey: {{ lambertian: {{ albedo: 0.5 }} }} }}
+{}geometry:
+{FLOOR}{}",
+        sun([5.0, 1.5, -1.0], angle, 100.0),
+        lit("auto", 8)
+    );
+    let scene = written(&text, &[]);
+    let classes = PixelClasses::new(&scene);
+    let axis = DVec3::new(5.0, 1.5, -1.0).normalize();
+    let half = 30.0_f64.to_radians().tan();
+    // Pixels of the film's plane at x = 1, in tenths.
+    let shows = |x: u32, y: u32| {
+        let places = (0..=10).flat_map(|u| (0..=10).map(move |v| (u, v)));
+        let direction = |(u, v): (u32, u32)| {
+            let place = |pixel: u32, part: u32| (f64::from(pixel) + f64::from(part) / 10.0) / 12.0;
+            let (right, down) = (place(x, u) - 1.0, place(y, v) - 1.0);
+            DVec3::new(1.0, -half * down, half * right).normalize()
+        };
+        let limit = (0.5 * angle).to_radians().cos();
+        places
+            .map(direction)
+            .any(|direction| direction.dot(axis) >= limit)
+    };
+    let (mut seen, mut classed) = (0, 0);
+    for (x, y) in (0..24).flat_map(|x| (0..24).map(move |y| (x, y))) {
+        let may = classes.class([x, y]) == PixelClass::MayMeetLamp;
+        assert!(may || !shows(x, y), "{x}, {y}");
+        seen += u32::from(shows(x, y));
+        classed += u32::from(may);
+    }
+    // A square around the disc.
+    assert!(seen > 8 && classed <= 2 * seen, "{seen}, {classed}");
+    let bound = |class| Stage::<3>::rgb(&scene, class).bound()[0];
+    assert_eq!(bound(PixelClass::MayMeetLamp), 100.0);
+    let lit = 0.5 * 100.0 * share(angle, 0.0);
+    let least = bound(PixelClass::MeetsNoLamp);
+    assert!(least < lit, "{least}, {lit}");
 }

@@ -1,4 +1,5 @@
 use super::*;
+use std::f64::consts::TAU;
 
 fn square(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> [DVec3; 4] {
     let (a, u, v) = (DVec3::from(corner), DVec3::from(u), DVec3::from(v));
@@ -101,4 +102,44 @@ fn triangles_and_parallelograms_are_lamps_and_other_quads_are_not() {
     let mut kite = quad;
     kite[2].x += 0.1;
     assert_eq!(Lamp::new(&kite), None);
+}
+
+/// The greatest cosine, against directions all over a cone; its solid angle, against that of a cap.
+#[test]
+fn a_cone_bounds_the_cosines_of_its_directions() {
+    for angle in [0.001, 0.53, 40.0, 120.0, 179.9] {
+        let cone = Cone::new(DVec3::new(2.0, -3e-9, 1.0) * 1e-200, angle).unwrap();
+        let half = (0.5 * angle).to_radians();
+        let solid = TAU * 2.0 * (0.5 * half).sin().powi(2);
+        assert!((cone.solid_angle() / solid - 1.0).abs() < 1e-12);
+        let [x, y] = cone.across;
+        for pair in [x.dot(y), x.dot(cone.axis), y.dot(cone.axis)] {
+            assert!(pair.abs() < 1e-15, "{cone:?}");
+        }
+        let within = |k: i32| {
+            // Points of a spiral over the cap.
+            let part = f64::from(k) / 4000.0;
+            let (sin, cos) = (half * part.sqrt()).sin_cos();
+            let (up, right) = (2.4 * f64::from(k)).sin_cos();
+            cone.axis * cos + (x * right + y * up) * sin
+        };
+        for normal in [
+            cone.axis,
+            -cone.axis,
+            x,
+            DVec3::Y,
+            DVec3::new(-0.6, 0.0, 0.8),
+            DVec3::new(0.6, 0.0, -0.8),
+        ] {
+            let most = cone.greatest_cosine(normal);
+            let found = (0..=4000).map(|k| within(k).dot(normal));
+            let found = found.fold(0.0, f64::max);
+            assert!(found <= most + 1e-12, "{angle}, {normal}: {found}, {most}");
+            assert!(
+                most - found < 0.05 * half.sin() + 1e-12,
+                "{angle}, {normal}: {found}, {most}"
+            );
+        }
+    }
+    assert_eq!(Cone::new(DVec3::ZERO, 1.0), None);
 }
