@@ -94,6 +94,7 @@ const MODULES: &[(&str, &[&str])] = &[
         &[
             "random",
             "double",
+            "elementary",
             "error",
             "kernel",
             "phase",

@@ -1,9 +1,9 @@
 //! Final steps of decoding that concern several keys at once, or depend on which keys are written.
 
-use super::shape::{Array, Expression, List, PartShape, Shape, Whole, is_auto, part, whole};
+use super::shape::{Array, List, PartShape, Shape, Whole, part, whole};
 use super::{
-    Data, DepthSampling, Jacobian, LightPoint, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence,
-    Sky, Square,
+    Data, DepthSampling, LightPoint, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky,
+    Square,
 };
 use crate::syntax::tree::{Kind, Node, Value};
 use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
@@ -175,36 +175,6 @@ pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
         crate::syntax::Sampling::BesideAccuracy { key },
     );
     problem.also(Path::root().name("accuracy"))
-}
-
-/// The shape of a Jacobian: `auto`, or an expression.
-pub(super) struct JacobianShape;
-
-impl Shape for JacobianShape {
-    type Value = Jacobian;
-    fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Jacobian {
-        if is_auto(node) {
-            return Jacobian::Auto;
-        }
-        Jacobian::Stated(Expression.decode(node, at, problems))
-    }
-    fn fallback(&self) -> Jacobian {
-        Jacobian::Auto
-    }
-    fn check(&self, value: &Jacobian, at: &Place<'_>, problems: &mut Problems) {
-        if let Jacobian::Stated(text) = value {
-            Expression.check(text, at, problems);
-        }
-    }
-    fn encode(&self, value: &Jacobian) -> Option<Data> {
-        match value {
-            Jacobian::Auto => Some(Data::text("auto")),
-            Jacobian::Stated(text) => Expression.encode(text),
-        }
-    }
-    fn schema(&self) -> Data {
-        Expression.schema()
-    }
 }
 
 /// The shape of a point on a lamp: `auto`, `none`, or its bits.

@@ -10,7 +10,10 @@ mod builder;
 pub(crate) mod decode;
 mod estimator;
 pub(crate) mod finalize;
+mod material;
 pub mod meshes;
+mod parameters;
+mod primitives;
 mod record;
 mod reflectance;
 #[cfg(feature = "serde")]
@@ -25,17 +28,22 @@ pub use basis::Basis;
 pub use builder::SceneBuilder;
 pub use estimator::Estimator;
 use glam::DVec3;
+pub use material::{
+    Bsdf, Dielectric, Emitter, Ggx, Jacobian, Lambertian, Material, Metal, Mirror, Phong,
+};
+pub use parameters::{
+    Accuracy, Budget, Circuit, Comparator, ComparatorAt, Counting, Nearest, Precision,
+};
+pub use primitives::{Cuboid, Disc, Quad, Sphere, Triangle};
 pub use qrt_circuit::quantum::Window;
 use record::{keyword, record, variant};
 pub use reflectance::{Checker, Pattern, Reflectance};
-use reflectance::{REFLECTED, ReflectanceShape};
 use shape::{
-    Array, AutoOr, Channels, Colour, Expression, LARGEST, List, Maybe, Named, Number, Omitted,
-    Part, Text, number, part, point, whole, word,
+    Array, AutoOr, Colour, LARGEST, List, Maybe, Named, Number, Part, Text, number, part, point,
+    whole, word,
 };
 use std::sync::Arc;
 use text::{Data, Fingerprint};
-use uncompute::UncomputeShape;
 pub use uncompute::{Recomputed, UNCOMPUTE_PARTS};
 pub use uncompute::{Uncompute, UncomputedParts};
 
@@ -201,138 +209,6 @@ impl Sun {
 }
 
 variant! {
-    /// The effect of a surface on light.
-    #[derive(Clone, Debug, PartialEq)]
-    pub enum Material = "a material";
-    /// Matte, on both sides: albedo / pi.
-    Lambertian(Lambertian) = "lambertian";
-    /// Emits on the front: the side of (v1 - v0) x (v2 - v0), or of a disc's `normal`. Reflects as a
-    /// Lambertian.
-    Emitter(Emitter) = "emitter";
-    /// A perfect mirror, on both sides.
-    Mirror(Mirror) = "mirror";
-    /// Smooth glass with Fresnel reflectance.
-    Dielectric(Dielectric) = "dielectric";
-    /// GGX with Fresnel 1 and separable Smith masking.
-    Ggx(Ggx) = "ggx";
-    /// Metal, smooth or rough: its reflectance grows to 1 towards grazing angles, by Schlick's formula.
-    Metal(Metal) = "metal";
-    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
-    /// direction.
-    Phong(Phong) = "phong";
-    /// The author's own BSDF.
-    Bsdf(Bsdf) = "bsdf";
-}
-
-record! {
-    /// Matte, on both sides: albedo / pi.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Lambertian = "a lambertian material";
-    /// The share of light that is reflected, in linear RGB: a colour or a pattern.
-    pub albedo: Reflectance = ReflectanceShape;
-}
-
-record! {
-    /// Emits on the front: the side of (v1 - v0) x (v2 - v0), or of a disc's `normal`. Reflects as a
-    /// Lambertian on both sides.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Emitter = "an emitter";
-    /// The radiance that leaves the front, in linear RGB. The picture's values have the same unit.
-    pub radiance: Rgb = RADIANCE;
-    /// The share of light that is reflected, in linear RGB: a colour or a pattern;
-    /// default black.
-    pub albedo: Reflectance = ReflectanceShape, or Reflectance::Uniform([0.0; 3]);
-}
-
-record! {
-    /// A perfect mirror, on both sides.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Mirror = "a mirror";
-    /// The share of light that is reflected, in linear RGB: a colour or a pattern.
-    pub reflectance: Reflectance = ReflectanceShape;
-}
-
-record! {
-    /// Smooth glass with Fresnel reflectance.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Dielectric = "a dielectric";
-    /// The index of refraction of the side opposite to the normal, relative to the other.
-    pub ior: f64 = number(1e-3, 1e3);
-    /// Fraction of the transmitted light that each crossing of the surface keeps, in linear RGB;
-    /// default white, clear glass.
-    pub transmittance: Rgb = REFLECTED, or [1.0; 3];
-}
-
-impl Dielectric {
-    /// Creates clear glass of the index of refraction `ior`.
-    pub const fn clear(ior: f64) -> Self {
-        Self {
-            ior,
-            transmittance: [1.0; 3],
-        }
-    }
-}
-
-record! {
-    /// GGX with Fresnel 1 and separable Smith masking.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Ggx = "a ggx material";
-    /// Roughness: above 0 (a mirror) and at most 1.
-    pub alpha: f64 = number(0.0, 1.0).above();
-    /// The colour of the reflection, in linear RGB: a colour or a pattern.
-    pub reflectance: Reflectance = ReflectanceShape;
-}
-
-record! {
-    /// Metal, smooth or rough: its reflectance grows to 1 towards grazing angles, by Schlick's formula.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Metal = "a metal";
-    /// The share of light that is reflected along the normal, in linear RGB: a colour or a pattern.
-    pub reflectance: Reflectance = ReflectanceShape;
-    /// Roughness: 0 (smooth, the default) to 1, as that of `ggx`.
-    pub alpha: f64 = number(0.0, 1.0), or 0.0;
-}
-
-record! {
-    /// Matte with a highlight: kd / pi + ks (n + 2) / (2 pi) max(0, cos a)^n about the mirror
-    /// direction.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Phong = "a phong material";
-    /// The share kd that is reflected to all sides, in linear RGB.
-    pub diffuse: Rgb = REFLECTED;
-    /// The share ks of the highlight, in linear RGB. In each channel, diffuse + specular is at
-    /// most 1.
-    pub specular: Rgb = REFLECTED;
-    /// The exponent n: the larger, the narrower the highlight.
-    pub exponent: f64 = number(0.0, 1e6);
-}
-
-record! {
-    /// The author's own BSDF, by expressions.
-    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-    pub struct Bsdf = "a bsdf";
-    /// The map phi(u, v), from the unit square to unit vectors x, y, z with z along the normal.
-    pub map: [String; 3] = Array::<_, 3>(Expression);
-    /// `auto` (differentiated), or an expression in u, v that is then checked.
-    pub jacobian: Jacobian = finalize::JacobianShape, or Jacobian::Auto;
-    /// The value f, per steradian, in cos_i, cos_o, cos_a, u, v, and the point x, y, z that is hit, in
-    /// units of the scene: one expression (grey) or three (red, green, blue).
-    pub value: Vec<String> = Channels;
-    /// The density of the map's directions, per steradian, in cos_i, cos_o, cos_a: 1 over the
-    /// Jacobian, which is checked. With it, lamps can be sampled from here.
-    pub pdf: Option<String> = Maybe(Expression), or None;
-}
-
-/// The source of a map's Jacobian.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Jacobian {
-    /// `|dphi/du x dphi/dv|`, differentiated symbolically.
-    Auto,
-    /// The author's expression.
-    Stated(String),
-}
-
-variant! {
     /// A primitive or a mesh of them.
     #[derive(Clone, Debug, PartialEq)]
     pub enum Geometry = "a primitive";
@@ -349,96 +225,6 @@ variant! {
     /// Triangles and polygons from a file, which exactly one of the keys `obj`, `ply` and `gltf`
     /// names.
     Mesh(Mesh) = "mesh";
-}
-
-record! {
-    /// A convex quadrilateral, scaled, then rotated, then translated; one that is not planar splits along
-    /// v0-v2.
-    #[derive(Clone, Debug, PartialEq)]
-    pub struct Quad = "a quad";
-    /// Four points around the outline, in scene units; (v1 - v0) x (v2 - v0) is the front.
-    pub vertices: [DVec3; 4] = Array::<_, 4>(point());
-    /// The name of a material.
-    pub material: String = Text;
-    /// The factor of its size, about the origin: 1 if it is left out.
-    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
-    /// Degrees about x, then y, then z, all through the origin; default none.
-    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-    /// Added to every point, in scene units; default none.
-    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-}
-
-record! {
-    /// A triangle, scaled, then rotated, then translated.
-    #[derive(Clone, Debug, PartialEq)]
-    pub struct Triangle = "a triangle";
-    /// Three points, in scene units; (v1 - v0) x (v2 - v0) is the front.
-    pub vertices: [DVec3; 3] = Array::<_, 3>(point());
-    /// The name of a material.
-    pub material: String = Text;
-    /// The factor of its size, about the origin: 1 if it is left out.
-    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
-    /// Degrees about x, then y, then z, all through the origin; default none.
-    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-    /// Added to every point, in scene units; default none.
-    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-}
-
-record! {
-    /// A sphere, whose front is outside, scaled, then rotated, then translated.
-    #[derive(Clone, Debug, PartialEq)]
-    pub struct Sphere = "a sphere";
-    /// The centre, in scene units.
-    pub center: DVec3 = point();
-    /// The radius, in scene units.
-    pub radius: f64 = LENGTH;
-    /// The name of a material.
-    pub material: String = Text;
-    /// The factor of its size, about the origin: 1 if it is left out.
-    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
-    /// Degrees about x, then y, then z, all through the origin; default none.
-    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-    /// Added to every point, in scene units; default none.
-    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-}
-
-record! {
-    /// A disc, the flat region within a circle, scaled, then rotated, then translated.
-    #[derive(Clone, Debug, PartialEq)]
-    pub struct Disc = "a disc";
-    /// The centre, in scene units.
-    pub center: DVec3 = point();
-    /// The direction that the front faces, of any length.
-    pub normal: DVec3 = point();
-    /// The radius, in scene units.
-    pub radius: f64 = LENGTH;
-    /// The name of a material.
-    pub material: String = Text;
-    /// The factor of its size, about the origin: 1 if it is left out.
-    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
-    /// Degrees about x, then y, then z, all through the origin; default none.
-    pub rotate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-    /// Added to every point, in scene units; default none.
-    pub translate: DVec3 = Omitted(point(), DVec3::ZERO), or DVec3::ZERO;
-}
-
-record! {
-    /// A box, whose fronts are outside: along the axes from `min` to `max`, then scaled, then rotated,
-    /// then translated.
-    #[derive(Clone, Debug, PartialEq)]
-    pub struct Cuboid = "a box";
-    /// The corner with the least coordinates, in scene units.
-    pub min: DVec3 = point();
-    /// The corner with the greatest coordinates, in scene units.
-    pub max: DVec3 = point();
-    /// The factor of its size, about the origin: 1 if it is left out.
-    pub scale: f64 = Omitted(LENGTH, 1.0), or 1.0;
-    /// Degrees about x, then y, then z, all through the origin; default none.
-    pub rotate: DVec3 = point(), or DVec3::ZERO;
-    /// Added to every point, in scene units; default none.
-    pub translate: DVec3 = point(), or DVec3::ZERO;
-    /// The name of a material.
-    pub material: String = Text;
 }
 
 record! {
@@ -487,61 +273,6 @@ impl MeshFormat {
     /// The format's key in a mesh.
     pub const fn name(self) -> &'static str {
         Self::NAMES[self as usize]
-    }
-}
-
-impl Quad {
-    /// Creates a quad of a material from four points around its outline.
-    pub fn new(vertices: [DVec3; 4], material: impl Into<String>) -> Self {
-        Self {
-            vertices,
-            material: material.into(),
-            scale: 1.0,
-            rotate: DVec3::ZERO,
-            translate: DVec3::ZERO,
-        }
-    }
-}
-
-impl Triangle {
-    /// Creates a triangle of a material from three points.
-    pub fn new(vertices: [DVec3; 3], material: impl Into<String>) -> Self {
-        Self {
-            vertices,
-            material: material.into(),
-            scale: 1.0,
-            rotate: DVec3::ZERO,
-            translate: DVec3::ZERO,
-        }
-    }
-}
-
-impl Sphere {
-    /// Creates a sphere of a material.
-    pub fn new(center: DVec3, radius: f64, material: impl Into<String>) -> Self {
-        Self {
-            center,
-            radius,
-            material: material.into(),
-            scale: 1.0,
-            rotate: DVec3::ZERO,
-            translate: DVec3::ZERO,
-        }
-    }
-}
-
-impl Disc {
-    /// Creates a disc of a material, whose front faces along `normal`.
-    pub fn new(center: DVec3, normal: DVec3, radius: f64, material: impl Into<String>) -> Self {
-        Self {
-            center,
-            normal,
-            radius,
-            material: material.into(),
-            scale: 1.0,
-            rotate: DVec3::ZERO,
-            translate: DVec3::ZERO,
-        }
     }
 }
 
@@ -681,118 +412,6 @@ keyword! {
     CosineHemisphere = "cosine-hemisphere";
     /// Constant density.
     UniformHemisphere = "uniform-hemisphere";
-}
-
-record! {
-    /// Width of the circuit's fixed-point numbers.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub struct Precision = "precision";
-    /// Bits behind the point; `auto` is 16.
-    pub fraction: Option<u32> = AutoOr(whole::<u32>(4, 30)), or None;
-}
-
-record! {
-    /// The comparator register.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub struct Comparator = "the comparator";
-    /// Its qubits, c: a colour is compared with 2^c thresholds; default 10. 0 suits colours that are 0
-    /// or the scale.
-    pub bits: u32 = whole::<u32>(0, 30), or 10;
-    /// The positions of the comparators, with h = scale / 2^bits.
-    pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
-}
-
-keyword! {
-    /// The positions of the comparators, with h = scale / 2^bits.
-    pub enum ComparatorAt = "a comparator position";
-    /// At (y + 1/2) h.
-    Midpoints = "midpoints";
-    /// At y h, as in the paper.
-    Edges = "edges";
-}
-
-record! {
-    /// The counting of the good indices.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Counting = "counting";
-    /// T = 2^phase_bits; default 8. A run of the counting circuit takes T - 1 queries; estimators
-    /// without a phase register may spend up to B (T - 1).
-    pub phase_bits: u32 = whole::<u32>(1, 40), or 8;
-    /// B, the number of runs; default 1.
-    pub repetitions: u32 = whole::<u32>(1, 1_000_000), or 1;
-    /// The window on the phase register of `posterior-mean`; `paper` and `qss` count with the
-    /// rectangular one and `sine` with the sine window, whatever stands here.
-    pub window: Window = word::<Window>(), or Window::Sine;
-    /// The estimator that turns measurements into an amplitude.
-    pub estimator: Estimator = word::<Estimator>(), or Estimator::Auto;
-    /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
-    /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
-    /// each channel of each pixel from what it measures first. Only the estimators `adaptive-bayes`,
-    /// `auto` and `random-depth` count by strata; for all others the number is 1.
-    pub strata: Option<u32> = AutoOr(whole::<u32>(1, 31)), or None;
-    /// Half the width of the interval, in radiance, at which a channel of a pixel is done though
-    /// queries are left; of the luminance where one run gives the colour. Without it, the default,
-    /// all queries are used. Estimators with a phase register have no interval to look at in between.
-    pub error: Option<f64> = Maybe(LENGTH), or None;
-}
-
-impl Counting {
-    /// The window in which the phase register is prepared: the estimator's own, or else `window`.
-    pub fn register_window(&self) -> Window {
-        self.estimator.register_window(self.window)
-    }
-
-    /// True if the levels of paths may be read: by the estimator, or to count strata one by one.
-    pub fn reads_levels(&self) -> bool {
-        self.estimator.reads_levels() || self.may_count_strata()
-    }
-
-    /// True if strata of the comparator may be counted one by one.
-    pub fn may_count_strata(&self) -> bool {
-        self.estimator.counts_strata() && self.strata != Some(1)
-    }
-}
-
-record! {
-    /// The layout of the circuit.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub struct Circuit = "the circuit";
-    /// The uncompute strategy of work registers. Parts that are uncomputed early may be listed, with hyphens between
-    /// them: `plane`, `body`, `search`, `ray`, `shading` and `component` of the tracer; the garbage of
-    /// `tables`, `products` and `quotients`; and `recompute`, which computes cheap values at each use instead
-    /// of keeping them, or `rerun`, which also runs again what these are computed from.
-    pub uncompute: Uncompute = UncomputeShape, or Uncompute::Keep;
-    /// The way to keep the nearest intersection.
-    pub nearest: Nearest = word::<Nearest>(), or Nearest::Running;
-}
-
-keyword! {
-    /// The way to keep the nearest intersection.
-    pub enum Nearest = "a way to keep the nearest hit";
-    /// One record, and a flag per primitive.
-    Running = "running";
-    /// All intersections and nearest records, as in the paper.
-    Paper = "paper";
-}
-
-record! {
-    /// Asked accuracy; qrt chooses the parameters.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Accuracy = "accuracy";
-    /// Of a channel of a pixel, relative to the picture's mean radiance over pixels and channels.
-    pub error: f64 = number(0.0, 1.0).above().below();
-    /// The probability that a channel of a pixel is within the error.
-    pub confidence: f64 = number(0.0, 1.0).above().below();
-}
-
-record! {
-    /// Limits on the circuit's cost; beyond them, an error.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub struct Budget = "the budget";
-    /// Maximum number of qubits at a time.
-    pub qubits: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
-    /// Maximum number of Toffoli gates in one call of the oracle.
-    pub toffoli: Option<u64> = Maybe(whole::<u64>(1, 1 << 53)), or None;
 }
 
 /// Returns a block with all keys left out, so that each has its default.
