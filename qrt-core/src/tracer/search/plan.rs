@@ -208,10 +208,16 @@ impl Planner<'_> {
             body.faces().for_each(|place| rest[place] = false);
             met.push((from_inside, body, entered));
         }
-        // Planes that have no face left are not tested.
+        // Planes that have no face left are not tested. A ray may leave a body at the distance of an outer plane
+        // whose other faces it misses: that plane is tested as the inner ones are.
         for (number, side) in outer_sides.iter_mut().enumerate() {
             let mut faces = self.geometry.planes[number].faces.clone();
-            if !faces.any(|place| rest[place]) {
+            let mut left = met.iter().filter(|(from_inside, ..)| *from_inside);
+            let is_left = left.any(|(_, body, _)| {
+                let mut bounds = body.bounds.iter();
+                bounds.any(|bound| bound.number == number && !bound.faces.is_empty())
+            });
+            if is_left || !faces.any(|place| rest[place]) {
                 *side = None;
             }
         }

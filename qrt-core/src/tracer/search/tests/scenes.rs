@@ -50,6 +50,24 @@ pub(super) fn scenes() -> Vec<(&'static str, Stage<3>)> {
         &perspective([0.1, 0.6, 0.8], MIDDLE, 45.0),
         &[room, &[ring()]],
     );
+    let hall = || cuboid([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
+    let within = perspective([0.3, 0.5, 0.2], [-0.4, 0.3, -0.6], 70.0);
+    let beside = |y: f64| level(0.7, y).at(2.2, 0.0, 0.0);
+    with(
+        "a hall beside a terrace",
+        &within,
+        &[&[hall(), beside(0.0), lamp(0.2, 0.9)]],
+    );
+    with(
+        "a hall beside a roof",
+        &within,
+        &[&[hall(), beside(1.0), lamp(0.2, 0.9)]],
+    );
+    with(
+        "a shining hall beside a roof",
+        &within,
+        &[&[hall().made_of("lamp"), beside(1.0)]],
+    );
     with("boxes", &front, &[room, &standing(&axis)]);
     with(
         "boxes along the axes",
