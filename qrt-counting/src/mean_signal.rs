@@ -29,6 +29,8 @@ use std::f64::consts::PI;
 const MULTIPLIED: u64 = 16;
 /// The most bits of phases that 53 bits of an arctangent decide, except close to the middle of two.
 const DECIDED: u32 = 36;
+/// The greatest slope whose square is finite.
+const STEEPEST: f64 = 1e150;
 /// The most iterations for which 53 bits of an eigenvalue suffice.
 const SHALLOW: u64 = 1 << 20;
 
@@ -123,15 +125,16 @@ impl Turn {
 
 /// The [`LevelPhases::word`] of each level.
 fn phase_words(levels: &[(u64, u64)], phases: &LevelPhases) -> Vec<i64> {
-    if phases.bits() > DECIDED {
+    if phases.bits() > DECIDED || phases.slope() > STEEPEST {
         return levels
             .iter()
             .map(|&(level, _)| phases.word(level))
             .collect();
     }
-    let step = 1.0 / (1_u64 << phases.level_bits()) as f64;
     let size = (1_u64 << phases.bits()) as f64;
-    let colours: Vec<f64> = levels.iter().map(|&(level, _)| level as f64).collect();
+    let most = 1_u64 << phases.level_bits();
+    let colours = levels.iter().map(|&(level, _)| level.min(most) as f64);
+    let colours: Vec<f64> = colours.collect();
     // Each word, and how far it was rounded.
     let [mut words, mut rounded] = [0.0, 0.0].map(|zero| vec![zero; levels.len()]);
     vectorized(
@@ -139,7 +142,7 @@ fn phase_words(levels: &[(u64, u64)], phases: &LevelPhases) -> Vec<i64> {
         || {
             let each = words.iter_mut().zip(&mut rounded);
             for ((word, rounded), colour) in each.zip(&colours) {
-                let distance = colour * step - phases.reference();
+                let distance = colour / most as f64 - phases.reference();
                 let exact = size / PI * arctangent(phases.slope() * distance);
                 *word = round(exact);
                 *rounded = (exact - *word).abs();
@@ -511,8 +514,12 @@ mod tests {
             (4, 12, 1.5, DECIDED),
             (5, 12, 1e5, 30),
             (6, 12, 1.5, 51),
+            (7, 8, 1e149, 20),
+            (8, 8, f64::MAX, 20),
         ] {
-            let levels = levels(seed, 400, bits);
+            let mut levels = levels(seed, 400, bits);
+            // Above the greatest level.
+            levels.push((3 << bits, 5));
             for reference in [0.0, 0.03, 0.5, 1.0] {
                 let phases = LevelPhases::new(slope, reference, bits, table).unwrap();
                 let of_circuit = levels.iter().map(|&(level, _)| phases.word(level));

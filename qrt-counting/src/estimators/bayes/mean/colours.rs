@@ -56,7 +56,11 @@ impl Shot {
     fn ideal(&self, colour: f64) -> f64 {
         let y = self.slope * (colour - self.reference);
         let centre = (1.0 + y * y).sqrt();
-        let (sine, _) = sincos(self.iterations * (FRAC_PI_2 - arctangent(y.abs())));
+        // The arctangent of 1/|y|, which is small where |y| is large.
+        let steep = arctangent(1.0 / y.abs().max(1.0));
+        let flat = FRAC_PI_2 - arctangent(y.abs().min(1.0));
+        let half = if y.abs() > 1.0 { steep } else { flat };
+        let (sine, _) = sincos(self.iterations * half);
         1.0 + 4.0 * centre * (centre - 1.0) * sine * sine
     }
 }
