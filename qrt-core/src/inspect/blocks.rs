@@ -31,6 +31,12 @@ pub struct BlockFigures {
 }
 
 impl Inspection {
+    /// The [`BlockFigures::block`] that has the costs of each block, by the block's place in the program's list.
+    pub fn merged_blocks(&self) -> Vec<BlockId> {
+        let (one, _) = merged(&self.whole.blocks);
+        one.into_iter().map(|first| BlockId(first as u32)).collect()
+    }
+
     /// The cost of some instructions, by [`BlockFigures::block`]: that of each block with any of them, its
     /// inner blocks included.
     pub fn blocks_in(&self, instructions: Range<usize>) -> HashMap<BlockId, Cost> {

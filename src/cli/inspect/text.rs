@@ -207,6 +207,10 @@ fn costs(out: &mut String, inspection: &Inspection, planes: bool) {
     part(out, CallPart::Compute);
     let mut stages = inspection.stages();
     stages.retain(|stage| stage.part == CallPart::Compute);
+    let merged = inspection.merged_blocks();
+    for stage in &mut stages {
+        stage.block = stage.block.map(|block| merged[block.index()]);
+    }
     let all_blocks = inspection.blocks();
     let blocks = |stage: &CallStage| blocks_of(inspection, &all_blocks, &stages, stage);
     let stages = stages.iter();
