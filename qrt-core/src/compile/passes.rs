@@ -354,10 +354,8 @@ fn schedule(
     after: u32,
     known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
-    if strategy.pebbles()
-        && let Some(instructions) = pebble::schedule(draft, roots, after, known)
-    {
-        return (instructions, Renamed::default());
+    if strategy.pebbles() {
+        return fewest_qubits(draft, strategy, roots, after, known);
     }
     if strategy.undoes_early() {
         return recompute::schedule(draft, strategy, roots, known);
@@ -407,6 +405,51 @@ fn schedule(
     };
     let instructions = scheduler.block(BlockId::ROOT);
     (instructions, scheduler.renamed)
+}
+
+/// Orders the instructions as [`pebble::schedule`] does, scope by scope, or scope by scope with parts that are run
+/// again: whichever takes the fewest qubits.
+fn fewest_qubits(
+    draft: &mut Draft,
+    strategy: Strategy,
+    roots: &[RegisterId],
+    after: u32,
+    known: &Mutex<Known>,
+) -> (Vec<Instruction>, Renamed) {
+    let pebbled = pebble::schedule(draft, roots, after, known);
+    let pebbled = pebbled.map(|order| (draft.clone(), order, Renamed::default()));
+    let again = |mut draft: Draft| {
+        let (order, renamed) = recompute::schedule(&mut draft, strategy, roots, known);
+        (draft, order, renamed)
+    };
+    let scoped = |mut draft: Draft| {
+        let (order, renamed) = schedule(&mut draft, Strategy::SCOPED, roots, after, known);
+        (draft, order, renamed)
+    };
+    let others = [again(draft.clone()), scoped(draft.clone())];
+    let all = pebbled.into_iter().chain(others);
+    let best = all.min_by_key(|(draft, order, _)| qubits(draft, order, after, known));
+    let Some((best, order, renamed)) = best else {
+        unreachable!("there are always two orders");
+    };
+    *draft = best;
+    (order, renamed)
+}
+
+/// The most qubits in use at a time, inputs apart.
+fn qubits(draft: &Draft, order: &[Instruction], after: u32, known: &Mutex<Known>) -> u32 {
+    let ops = draft.ops.iter().map(|(op, _)| op);
+    let figures = locked(known).figures(ops, &draft.registers);
+    let (mut in_use, mut most) = (0, 0);
+    for instruction in order {
+        let op = instruction.op as usize;
+        let fresh = draft.ops[op].0.fresh().into_iter();
+        let width: u32 = fresh.map(|id| draft.registers[id.index()].width).sum();
+        in_use += if instruction.inverse { 0 } else { width };
+        most = most.max(in_use + figures[op].borrowed);
+        in_use -= if instruction.inverse { width } else { 0 };
+    }
+    most.max(in_use + after)
 }
 
 impl Scheduler<'_> {

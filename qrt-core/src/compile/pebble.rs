@@ -6,7 +6,7 @@
 //! of pebbles. It takes the qubits of their registers, and a move those that the operation borrows.
 //!
 //! For a growing number of qubits, an A* search looks for the game with the fewest Toffolis. The first number
-//! with which there is a game is the least.
+//! with which there is a game is the least, unless a search for fewer qubits had to stop: positions are limited.
 
 use super::draft::Draft;
 use super::known::{Known, locked};
@@ -20,8 +20,11 @@ use std::sync::Mutex;
 /// Most operations of a game: a position has one bit for each.
 const MOST_OPERATIONS: usize = 64;
 
-/// Most positions that are reached for one program.
+/// Most positions that are reached for one program, until the least number of qubits is known.
 const MOST_POSITIONS: usize = 1 << 18;
+
+/// Most positions that are reached for each further number of qubits.
+const MORE_POSITIONS: usize = 1 << 13;
 
 /// A set of operations, one bit for each.
 type Pebbles = u64;
@@ -57,8 +60,8 @@ struct Reached {
 }
 
 /// Orders the instructions so that the program takes the fewest qubits, and of such orders one with the fewest
-/// Toffolis. `after` is the number of qubits that are in use at the end, beside the program's. None if the
-/// program is too large for an exact answer.
+/// Toffolis, or such an order that is nearly as good if an exact answer would take too long. `after` is the number of
+/// qubits that are in use at the end, beside the program's. None if the program is too large.
 pub(super) fn schedule(
     draft: &Draft,
     roots: &[RegisterId],
@@ -122,7 +125,10 @@ impl Game {
         let mut left = MOST_POSITIONS;
         let all = self.moves.iter().map(|one| one.width + one.borrowed);
         let most = all.sum::<u32>() + self.after;
-        (self.least()..=most).find_map(|qubits| self.within(qubits, &mut left))
+        (self.least()..=most).find_map(|qubits| {
+            left = left.max(MORE_POSITIONS);
+            self.within(qubits, &mut left)
+        })
     }
 
     /// A number of qubits that no game goes below.

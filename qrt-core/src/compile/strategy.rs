@@ -105,8 +105,9 @@ impl Strategy {
         again: Recomputed::Nothing,
     };
 
-    /// The order with the fewest qubits, found by the reversible pebble game, in programs of at most 64
-    /// operations. Larger programs are ordered scope by scope; parts are undone early and run again.
+    /// The order with the fewest qubits that a search of the reversible pebble game finds, in programs of at most
+    /// 64 operations: those of some 25 operations are solved exactly. Larger programs are ordered scope by scope,
+    /// with or without parts that are run again, whichever takes fewer qubits.
     pub const PEBBLED: Self = Self {
         again: Recomputed::Any,
         ..Self::SCOPED

@@ -20,9 +20,9 @@ use super::places::Places;
 use super::refraction::Refraction;
 
 /// An upper bound of the colour of every path, per channel, given the radiance of each surface, the
-/// greatest of the sky, and that of the sun. It includes the emission at the primary
-/// hit only if `direct`, and the sun where primary rays meet nothing only if `sees_sun`. If there is a `refraction`, its bound replaces the weights of the glass
-/// surfaces for which it holds.
+/// greatest of the sky, and that of the sun. It includes the emission at the primary hit only if `direct`, and the
+/// sun where primary rays meet nothing only if `sees_sun`. If there is a `refraction`, its bound replaces the weights
+/// of the glass surfaces for which it holds.
 pub(crate) fn colour<const C: usize>(
     places: &Places,
     (radiance, sky, sun): (&[[f64; C]], [f64; C], [f64; C]),

@@ -19,7 +19,7 @@ pub enum Uncompute {
     Scoped,
     /// Chooses the strategy with the fewest gates within `budget.qubits`.
     Auto,
-    /// In the order with the fewest qubits.
+    /// In the order with the fewest qubits that a search finds.
     Pebbled,
     /// Some of the parts early, and the others at the end.
     Parts(UncomputedParts),
@@ -67,7 +67,7 @@ const WORDS: [(Uncompute, &str, &str); 4] = [
     (
         Uncompute::Pebbled,
         "pebbled",
-        "In the order with the fewest qubits: exactly for up to 64 operations.",
+        "In the order with the fewest qubits that a search finds, for circuits of up to 64 operations.",
     ),
 ];
 
