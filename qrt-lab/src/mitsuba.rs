@@ -5,7 +5,8 @@
 //! Mitsuba does differently by default: faces are flat, or smooth by the normals that qrt uses;
 //! surfaces other than dielectrics act on both sides; outside of glass there is vacuum, not air; a
 //! pixel is the mean over its square; the field of view is vertical. A sun becomes a disc that is so far away that
-//! directions to it differ by less than 1e-5.
+//! directions to it differ by less than 1e-5. Its radiance includes that of the sky behind its centre: before a
+//! gradient, that of a wide sun is wrong by what the sky differs over the disc.
 //!
 //! On smooth meshes the expected value differs at outlines, where the interpolated normal is behind
 //! the viewer or a direction is on different sides of the face and of its normal. Mitsuba has no rule

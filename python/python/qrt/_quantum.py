@@ -25,7 +25,7 @@ def to_qiskit(self: Any, part: str = "oracle") -> Any:
     qasm2 = _library("qiskit.qasm2", "qiskit")
     instructions = qasm2.LEGACY_CUSTOM_INSTRUCTIONS
     circuit = qasm2.loads(self.qasm(2, part), custom_instructions=instructions)
-    circuit.name = f"{self.scene}_{part}"
+    circuit.name = f"{self.scene.name}_{part}"
     return circuit
 
 
