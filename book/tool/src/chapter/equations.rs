@@ -130,7 +130,7 @@ impl Workshop {
     }
 
     /// Renders a line of Markdown as HTML.
-    fn line(&mut self, chapter: &Chapter<'_>, markdown: &str, line: usize) -> String {
+    pub(super) fn line(&mut self, chapter: &Chapter<'_>, markdown: &str, line: usize) -> String {
         let mut traced = Traced::default();
         traced.push(markdown, line);
         let (markdown, _) = inlines(self, chapter, &traced);

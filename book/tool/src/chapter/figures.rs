@@ -12,6 +12,8 @@
 
 use super::traced::Traced;
 use super::{Chapter, Workshop};
+use crate::html::within_markdown;
+use qrt_drawing::escaped;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -22,9 +24,21 @@ const LABELS: &str = "; ";
 /// A link to which the figure's number is added.
 const LINK: &str = "[Figure](";
 
-/// Numbers of figures, by `page.html#fig-NAME`.
+/// The line of a chapter that the list of figures replaces.
+const LIST: &str = "{{#figures}}";
+
+/// Figures, by `page.html#fig-NAME`.
 #[derive(Default)]
-pub(crate) struct Figures(BTreeMap<String, usize>);
+pub(crate) struct Figures(BTreeMap<String, Numbered>);
+
+/// A figure with its number.
+struct Numbered {
+    number: usize,
+    /// The first sentence of its caption, in Markdown.
+    says: String,
+    /// The name of its chapter.
+    chapter: String,
+}
 
 /// A figure of a chapter.
 struct Figure<'a> {
@@ -58,7 +72,12 @@ impl Workshop {
         }
         let number = self.figures.0.len() + 1;
         let place = format!("{}#{}", chapter.page, figure.id);
-        if self.figures.0.insert(place, number).is_some() {
+        let numbered = Numbered {
+            number,
+            says: first_sentence(&figure.caption.join(" ")),
+            chapter: chapter.name.to_owned(),
+        };
+        if self.figures.0.insert(place, numbered).is_some() {
             self.complain(chapter, origin, "this page shows the figure twice");
         }
         let mut push =
@@ -104,8 +123,15 @@ impl Workshop {
         Some(figure.after)
     }
 
-    /// Returns a chapter's text with the numbers of the figures that it refers to.
+    /// Returns a chapter's text with the numbers of the figures that it refers to, and with the list of all
+    /// figures in place of a line `{{#figures}}`.
     pub(crate) fn numbered(&mut self, chapter: &Chapter<'_>, content: &str) -> String {
+        let is_list = |line: &str| line.trim() == LIST;
+        let content = if content.lines().any(is_list) {
+            &content.replace(LIST, &self.list(chapter))
+        } else {
+            content
+        };
         let mut parts = content.split(LINK);
         let mut out = parts.next().unwrap_or_default().to_owned();
         for part in parts {
@@ -115,9 +141,9 @@ impl Workshop {
                 "" => chapter.page.to_owned(),
                 page => page.replace(".md", ".html"),
             };
-            if let Some(number) = self.figures.0.get(&format!("{page}#{id}")) {
+            if let Some(figure) = self.figures.0.get(&format!("{page}#{id}")) {
                 // Writing to a string cannot fail.
-                let _ = write!(out, "[Figure {number}](");
+                let _ = write!(out, "[Figure {}](", figure.number);
             } else {
                 self.complain(chapter, 1, format!("`{LINK}{target})` leads to no figure"));
                 out.push_str(LINK);
@@ -126,6 +152,50 @@ impl Workshop {
         }
         out
     }
+}
+
+impl Workshop {
+    /// Returns the list of all figures, by chapter and number.
+    fn list(&mut self, chapter: &Chapter<'_>) -> String {
+        let figures = std::mem::take(&mut self.figures.0);
+        let mut ordered: Vec<_> = figures.iter().collect();
+        ordered.sort_by_key(|(_, figure)| figure.number);
+        let root = chapter.to_root();
+        let mut html = String::new();
+        for chapters in ordered.chunk_by(|(_, a), (_, b)| a.chapter == b.chapter) {
+            let _ = write!(html, "<h2>{}</h2><ul>", escaped(&chapters[0].1.chapter));
+            for (place, figure) in chapters {
+                let says = self.line(chapter, &figure.says, 1);
+                let number = figure.number;
+                let _ = write!(
+                    html,
+                    "<li><a href=\"{root}{place}\">Figure {number}</a>: {says}</li>"
+                );
+            }
+            html.push_str("</ul>");
+        }
+        self.figures.0 = figures;
+        within_markdown(&html)
+    }
+}
+
+/// Returns the first sentence of a caption, with the texts of links in place of the links.
+fn first_sentence(caption: &str) -> String {
+    let mut text = String::new();
+    let mut rest = caption;
+    while let Some((before, link)) = rest.split_once('[') {
+        let Some((shown, after)) = link.split_once("](") else {
+            break;
+        };
+        let (_, after) = after.split_once(')').unwrap_or_default();
+        text.push_str(before);
+        text.push_str(shown);
+        rest = after;
+    }
+    text.push_str(rest);
+    let end = text.find(". ").map_or(text.len(), |end| end + 1);
+    text.truncate(end);
+    text
 }
 
 /// Parses the figure that begins on the line `first`.

@@ -276,6 +276,34 @@ After.
 }
 
 #[test]
+fn all_figures_are_listed() {
+    let content = "\
+![a plane](figures/plane.svg)
+: The [plane](y.md#plane), with $x$. More of it.
+
+{{#figures}}
+";
+    let mut workshop = workshop(Path::new(env!("CARGO_MANIFEST_DIR")));
+    let chapter = Chapter {
+        file: "x.md",
+        page: "x.html",
+        name: "X & Y",
+        original: content,
+    };
+    let processed = workshop.process(&chapter, content);
+    let html = html(&workshop.numbered(&chapter, &processed.markdown));
+    assert_eq!(workshop.complaints, []);
+    let start =
+        "<h2>X &amp; Y</h2><ul><li><a href=\"x.html#fig-plane\">Figure 1</a>: The plane, with ";
+    assert!(html.contains(start), "{html}");
+    let (_, list) = html.split_once(start).unwrap();
+    assert!(
+        !list.contains("More of it") && !list.contains('['),
+        "{html}"
+    );
+}
+
+#[test]
 fn a_figure_without_a_caption_or_that_is_not_there_is_told() {
     let (_, complaints) = processed("![a plane](figures/plane.svg)\n\nAfter.\n");
     assert_eq!(complaints.len(), 1);
