@@ -59,6 +59,7 @@ pages! {
     errata = "errata.md",
     related_work = "related-work.md",
     glossary = "glossary.md",
+    list_of_figures = "list-of-figures.md",
     summary_card = "summary.md",
 }
 

@@ -169,7 +169,7 @@ impl Workshop {
                 let number = figure.number;
                 let _ = write!(
                     html,
-                    "<li><a href=\"{root}{place}\">Figure {number}</a>: {says}</li>"
+                    "<li><a href=\"{root}{place}\">Figure {number}</a>. {says}</li>"
                 );
             }
             html.push_str("</ul>");

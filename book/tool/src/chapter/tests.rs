@@ -294,7 +294,7 @@ fn all_figures_are_listed() {
     let html = html(&workshop.numbered(&chapter, &processed.markdown));
     assert_eq!(workshop.complaints, []);
     let start =
-        "<h2>X &amp; Y</h2><ul><li><a href=\"x.html#fig-plane\">Figure 1</a>: The plane, with ";
+        "<h2>X &amp; Y</h2><ul><li><a href=\"x.html#fig-plane\">Figure 1</a>. The plane, with ";
     assert!(html.contains(start), "{html}");
     let (_, list) = html.split_once(start).unwrap();
     assert!(
