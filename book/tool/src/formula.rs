@@ -14,10 +14,12 @@ const KATEX: &str = include_str!("../katex/katex.min.js");
 
 /// The script that calls KaTeX: for visual HTML, MathML for screen readers, and an error for
 /// everything that LaTeX would refuse. It removes the source text from the MathML, which would make
-/// pages larger and appear in searches.
+/// pages larger and appear in searches, and what HTML does not need: names of spaces, and the element
+/// around the source text.
 const RENDER: &str = r#"(tex, display) => katex
     .renderToString(tex, { displayMode: display, output: "htmlAndMathml", strict: "error" })
     .replace(/<annotation [^>]*>[^<]*<\/annotation>/, "")
+    .replace(/<\/?semantics>| xmlns="[^"]*"/g, "")
     .replaceAll(";\"", "\"")"#;
 
 /// Renders formulas, and caches them.
@@ -152,6 +154,7 @@ mod tests {
         let html = formulas.render(r"\frac{a}{b}", false).unwrap();
         assert!(html.contains("<mfrac><mi>a</mi><mi>b</mi></mfrac>"));
         assert!(html.contains("class=\"katex-html\" aria-hidden=\"true\""));
+        assert!(!html.contains("semantics") && !html.contains("xmlns"));
         assert!(!html.contains("annotation") && !html.contains("katex-display"));
         assert!(
             formulas
