@@ -92,7 +92,7 @@ fn a_sun_is_written_as_a_sky_is() {
     let (_, faults) = read_text(&text, Path::new(""));
     let told = format!("{faults:?}");
     assert!(
-        told.contains("`directional` is called `sun` here"),
+        told.contains("write `sun`, whose `direction` points towards it"),
         "{told}"
     );
 }
