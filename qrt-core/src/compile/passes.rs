@@ -344,21 +344,19 @@ struct Scheduler<'a> {
     stays: Vec<bool>,
 }
 
-/// Orders the instructions: all at once, or scope by scope. `roots` stay to the end of the program, where
-/// `after` qubits are in use beside the program's. With scopes, some roots may end up in copies; the returned
-/// map contains these copies.
+/// Orders the instructions: all at once, or scope by scope. `roots` stay to the end of the program. With
+/// scopes, some roots may end up in copies; the returned map contains these copies.
 fn schedule(
     draft: &mut Draft,
     strategy: Strategy,
-    roots: &[RegisterId],
-    after: u32,
+    roots: Roots<'_>,
     known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
     if strategy.pebbles() {
-        return fewest_qubits(draft, strategy, roots, after, known);
+        return fewest_qubits(draft, strategy, roots, known);
     }
     if strategy.undoes_early() {
-        return recompute::schedule(draft, strategy, roots, known);
+        return recompute::schedule(draft, strategy, roots.registers, known);
     }
     if strategy.is_keep() {
         let instructions = draft.ops.iter().enumerate();
@@ -370,7 +368,7 @@ fn schedule(
         return (instructions.collect(), Renamed::default());
     }
     let mut readers = vec![Vec::new(); draft.registers.len()];
-    for root in roots {
+    for root in roots.registers {
         readers[root.index()].push(None);
     }
     // A block's place in its parent is the place of its first operation.
@@ -412,18 +410,18 @@ fn schedule(
 fn fewest_qubits(
     draft: &mut Draft,
     strategy: Strategy,
-    roots: &[RegisterId],
-    after: u32,
+    roots: Roots<'_>,
     known: &Mutex<Known>,
 ) -> (Vec<Instruction>, Renamed) {
-    let pebbled = pebble::schedule(draft, roots, after, known);
+    let Roots { registers, after } = roots;
+    let pebbled = pebble::schedule(draft, registers, after, known);
     let pebbled = pebbled.map(|order| (draft.clone(), order, Renamed::default()));
     let again = |mut draft: Draft| {
-        let (order, renamed) = recompute::schedule(&mut draft, strategy, roots, known);
+        let (order, renamed) = recompute::schedule(&mut draft, strategy, registers, known);
         (draft, order, renamed)
     };
     let scoped = |mut draft: Draft| {
-        let (order, renamed) = schedule(&mut draft, Strategy::SCOPED, roots, after, known);
+        let (order, renamed) = schedule(&mut draft, Strategy::SCOPED, roots, known);
         (draft, order, renamed)
     };
     let others = [again(draft.clone()), scoped(draft.clone())];
@@ -610,8 +608,7 @@ pub(crate) fn assemble(
         share_multiples(&mut draft, strategy, known);
     }
     draft.size_scratch(known);
-    let (instructions, renamed) =
-        schedule(&mut draft, strategy, roots.registers, roots.after, known);
+    let (instructions, renamed) = schedule(&mut draft, strategy, roots, known);
     let program = Program {
         registers: draft.registers,
         blocks: draft.blocks,

@@ -35,6 +35,7 @@ mod face_table;
 mod frame;
 mod geometry;
 mod intersect;
+mod lamp_shapes;
 mod lighting;
 mod lights;
 mod paper;
