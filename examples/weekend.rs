@@ -9,7 +9,8 @@
 //! bits. Metal is smooth.
 
 use qrt::scene::{
-    DepthSampling, Dielectric, Lambertian, Lens, Mirror, Perspective, Sampling, Scene, Sky,
+    Counting, DepthSampling, Dielectric, Estimator, Lambertian, Lens, Mirror, Perspective,
+    Sampling, Scene, Sky,
 };
 
 /// Random numbers in 0..1, the same on every run (Knuth's MMIX).
@@ -25,6 +26,11 @@ impl Random {
 }
 
 fn main() {
+    print!("{}", text());
+}
+
+/// Returns the text of the scene's file.
+pub(crate) fn text() -> String {
     let ground = [
         [-30., 0., 30.],
         [30., 0., 30.],
@@ -103,8 +109,14 @@ fn main() {
             depths: vec![DepthSampling::of_bits([8, 8]); 4],
             ..Sampling::default()
         })
+        .counting(Counting {
+            estimator: Estimator::AdaptiveBayes,
+            ..Counting::default()
+        })
         .build();
-    println!("# The cover of \"Ray Tracing in One Weekend\": spheres, a sky, and a lens.");
-    println!("# This file is written by `cargo run --example weekend`.");
-    print!("{scene}");
+    format!(
+        "# The cover of \"Ray Tracing in One Weekend\": spheres, a sky, and a lens.\n\
+         # This file is written by `cargo run --example weekend`.\n\
+         {scene}"
+    )
 }

@@ -6,12 +6,14 @@ use qrt_circuit::{
     Bit, Contents, Declaration, Gate, GateCircuit, Machine, Operand, Program, Qubit, Recorded,
     Recorder, RegisterId, Style, Type, Word, lower,
 };
-use qrt_runtime::checkpoint::{Checkpoint, CheckpointError, Header, PixelPart, Tile};
+use qrt_runtime::checkpoint::{
+    Checkpoint, CheckpointError, CountedPixels, Header, PixelPart, Tile,
+};
 use qrt_runtime::render::Merge;
 use qrt_scene::Scene;
-use qrt_scene::expr::{Domain, Expr, Variable, Variables};
 use qrt_scene::front::{Files, parse_with};
 use qrt_scene::valid::Polygon;
+use qrt_syntax::expr::{Domain, Expr, Variable, Variables};
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
@@ -46,7 +48,7 @@ fn read(text: &str, files: &[(&str, &[u8])]) -> Result<Vec<Polygon>, String> {
 }
 
 /// Reads a mesh and, after a byte 0, its material library. Other line ends give the same mesh, or the same faults at
-/// the same lines.
+/// the same lines. The colours of vertices are read, too.
 pub(crate) fn mesh(data: &[u8]) {
     const SCENE: &str = "
 name: any
@@ -59,6 +61,8 @@ sampling: { path_bits: 2 }
     let cut = data.iter().position(|byte| *byte == 0);
     let (obj, mtl) = data.split_at(cut.unwrap_or(data.len()));
     let mtl = mtl.get(1..).unwrap_or_default();
+    let coloured = SCENE.replace("any.obj", "any.obj, colors: vertices");
+    let _ = read(&coloured, &[("any.obj", obj), ("any.mtl", mtl)]);
     let plain = read(SCENE, &[("any.obj", obj), ("any.mtl", mtl)]);
     if data.contains(&b'\r') {
         return;
@@ -100,8 +104,9 @@ sampling: {{ path_bits: 2 }}
     let cut = file.iter().position(|byte| *byte == 0);
     let binary = cut.map(|cut| &file[cut + 1..]).unwrap_or_default();
     let text = &file[..cut.unwrap_or(file.len())];
-    for file in [file, text] {
-        let _ = read(&scene, &[("any", file), ("any.bin", binary)]);
+    let coloured = scene.replace(entry, &format!("{entry}, colors: vertices"));
+    for (scene, file) in [(&scene, file), (&scene, text), (&coloured, file)] {
+        let _ = read(scene, &[("any", file), ("any.bin", binary)]);
     }
 }
 
@@ -616,10 +621,12 @@ fn records(path: &Path, data: &[u8]) {
         width: 1,
         height: 1,
         pixels: vec![[0.5; 3]],
-        queries: vec![1],
-        good: vec![[2; 3]],
-        widths: vec![[0.25; 3]],
-        strata: vec![[3; 3]],
+        counted: CountedPixels {
+            queries: vec![1],
+            good: vec![[2; 3]],
+            widths: vec![[0.25; 3]],
+            strata: vec![[3; 3]],
+        },
     };
     checkpoint.append(&new).expect("it can be written");
     drop(checkpoint);

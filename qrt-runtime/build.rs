@@ -9,13 +9,15 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// This crate's sources, and those of the crates beside it, where they stand beside it.
-const SOURCES: [&str; 6] = [
+const SOURCES: [&str; 8] = [
     "src",
     "../qrt-core/src",
     "../qrt-circuit/src",
     "../qrt-counting/src",
     "../qrt-machines/src",
     "../qrt-scene/src",
+    "../qrt-syntax/src",
+    "../qrt-tracer/src",
 ];
 
 fn main() -> io::Result<()> {

@@ -7,6 +7,7 @@ pub(crate) const EXAMPLES: &[(&str, &str)] = &[
     ("cornell-mirror", include_str!("cornell-mirror.yaml")),
     ("cornell-glass", include_str!("cornell-glass.yaml")),
     ("cornell-ggx", include_str!("cornell-ggx.yaml")),
+    ("terrace", include_str!("terrace.yaml")),
     ("velvet", include_str!("velvet.yaml")),
     ("knot", include_str!("knot.yaml")),
     ("floor-and-light", include_str!("floor-and-light.yaml")),

@@ -17,11 +17,13 @@
 //!   lamps, with an error of 1 %, would take 217 million physical qubits for 6.1 years.
 //!
 //! In a clone of the [repository](https://github.com/qrt-rs/qrt), the first command renders a
-//! picture, `lit-box.png`, and the second runs the tests:
+//! picture, `lit-box.png`, the second runs the tests, and the third simulates all amplitudes of a
+//! counting circuit of 20 qubits and compares them with theory:
 //!
 //! ```sh
 //! cargo run --release -- render scenes-yaml/lit-box.yaml --exposure 1
 //! cargo test
+//! cargo run --release -- simulate scenes-yaml/small/edge.yaml --pixel 1,0
 //! ```
 //!
 //! # The library
@@ -70,9 +72,9 @@
 //! circuit, measures its error, estimates physical resources, draws, and exports to Mitsuba 3. With
 //! `default-features = false` a crate builds none of the dependencies of these features.
 //!
-//! [`scene`] reads and checks scenes, and [`core`] takes a checked scene to its oracle: the tracer and
-//! the compiler. [`machines`] run circuits, [`counting`] estimates amplitudes, and [`runtime`] renders
-//! pictures and writes files with them. [`drawing`] draws.
+//! [`scene`] reads and checks scenes, and [`syntax`] reports their problems. [`tracer`] traces paths over any
+//! arithmetic, and [`core`] compiles the tracer's operations to a scene's oracle. [`machines`] run circuits,
+//! [`counting`] estimates amplitudes, and [`runtime`] renders pictures and writes files. [`drawing`] draws.
 //!
 //! # Where to go from here
 //!
@@ -117,6 +119,9 @@ pub use qrt_macros::reversible;
 pub use qrt_runtime as runtime;
 /// The scene language: scenes, their checks, and the sequences of paths.
 pub use qrt_scene as scene;
+/// Syntax trees with places, problems and their reports, expressions.
+pub use qrt_syntax as syntax;
+pub use qrt_tracer as tracer;
 
 /// Names of the standard library in the code of the macros: a crate without it has no `::std`.
 #[doc(hidden)]

@@ -256,11 +256,9 @@ pub use qrt_runtime::path_machines::run_paths;
 /// assert_eq!(counted.fraction(), 0.5);
 /// let light = render_where::<Glow>(&exact, |m, path, good| meets(m, &path.ray0.found, good))?;
 /// assert_eq!(light.image.pixels[1], [1.0, 0.5, 0.0]);
-/// let path = trace_path::<Glow>(Model::Fixed, 0, [0, 0], 3)?;
-/// assert!(path.rays[0].hit.is_none());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub use qrt_runtime::predicates::{count_where, render_where, trace_path};
+pub use qrt_runtime::predicates::{count_where, render_where};
 /// Renders a scene to a picture.
 ///
 /// ```
@@ -297,6 +295,18 @@ pub use qrt_runtime::render::{
     CompiledError, Model, OwnEstimator, RenderError, RenderOptions, Rendered, render,
     render_compiled,
 };
+/// One path of a scene, in the scene's units.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+#[doc = include_str!("glow.txt")]
+/// // The left half of the film is dark.
+/// let path = trace_path::<Glow>(Model::Fixed, 0, [0, 0], 3)?;
+/// assert!(path.rays[0].hit.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub use qrt_runtime::traced_path::trace_path;
 /// The number of threads, and their progress.
 ///
 /// ```
@@ -333,18 +343,9 @@ pub use qrt_runtime::workers::{Progress, Workers};
 ///
 /// let report = load("no-such-scene.yaml".as_ref(), &[]).unwrap_err();
 /// assert!(report.to_string().contains("no-such-scene.yaml"));
-/// # Ok::<(), qrt::scene::syntax::Report>(())
+/// # Ok::<(), qrt::syntax::Report>(())
 /// ```
 pub use qrt_scene::front::{Loaded, load, parse};
-/// All problems of a scene, each at its place in the text.
-///
-/// ```
-/// use qrt::prelude::*;
-///
-/// let report: Report = parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
-/// assert!(report.render(false).contains("--> seven.yaml:1:7"));
-/// ```
-pub use qrt_scene::syntax::Report;
 /// A checked scene, or all of its errors.
 ///
 /// ```
@@ -374,3 +375,12 @@ pub use qrt_scene::valid::{InvalidScene, ValidScene, validate};
 /// assert!(scene.to_yaml().contains("film: { width: 32, height: 64 }"));
 /// ```
 pub use qrt_scene::{Estimator, Scene, SceneBuilder};
+/// All problems of a scene, each at its place in the text.
+///
+/// ```
+/// use qrt::prelude::*;
+///
+/// let report: Report = parse("name: 7", "seven.yaml", &[], "".as_ref()).unwrap_err();
+/// assert!(report.render(false).contains("--> seven.yaml:1:7"));
+/// ```
+pub use qrt_syntax::Report;

@@ -22,6 +22,7 @@ mod command_line {
     mod scenes_from_strangers;
     mod search_command;
     mod shells_and_streams;
+    mod simulate_command;
     mod small_commands;
     mod trade_command;
     mod watching;

@@ -30,4 +30,5 @@ mod pictures {
     mod stopping;
     mod strata_of_thresholds;
     mod suns;
+    mod vertex_colours;
 }

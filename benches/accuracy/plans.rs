@@ -7,11 +7,12 @@
 //! repetitions, over any number of paths. Then it requests an error of 1 % for the Cornell box with
 //! its lamp sampled, and fails unless the best parameters by hand, which count the comparator
 //! whole, take 2.5 times fewer queries than without, and a plan, which counts it by strata and
-//! stops by itself, 6 times fewer. A word behind the name selects the scenes whose names contain it;
-//! `lamps` selects the sampled lamp.
+//! stops by itself, 6 times fewer. Last, it plans and renders four scenes with sampled lamps by the default
+//! estimator, `auto`, and by `adaptive-bayes`. It fails unless both keep the accuracy, and `auto` takes
+//! fewer queries and at most twice the processor time, in the geometric mean. A word behind the name selects the scenes
+//! whose names contain it; `lamps` selects the sampled lamp, `estimators` the two estimators.
 
-use crate::common::{Arguments, Promises};
-use qrt_core::tracer::{PixelClass, PixelClasses};
+use crate::common::{Arguments, Promises, processor};
 use qrt_counting::estimators::{CountingProblem, Device, Noise, Settings, estimator};
 use qrt_counting::random::Stream;
 use qrt_runtime::Prepared;
@@ -24,6 +25,7 @@ use qrt_runtime::workers::Workers;
 use qrt_scene::meshes::Meshes;
 use qrt_scene::valid::{ValidScene, validate};
 use qrt_scene::{Accuracy, Comparator, Counting, Estimator, Film, Precision, Sampling, Scene};
+use qrt_tracer::{PixelClass, PixelClasses};
 use std::path::Path;
 use std::time::Instant;
 
@@ -166,7 +168,7 @@ pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
             continue;
         }
         let any = scene(name, &[], ERRORS[0]);
-        let wide = wide(&any);
+        let wide = wide(&any, TRUTH.0);
         let truth = truth(&wide);
         let (means, bounds) = paths(&wide);
         let mean = radiance(&truth);
@@ -214,19 +216,86 @@ pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
         fine &= lamps_pay();
     }
     promises.judge("all plans keep their accuracy at their price", fine);
+    if asked.is_none_or(|asked| "estimators".contains(asked)) {
+        by_estimators(promises);
+    }
 }
 
-/// Returns the scene with enough paths for the reference means.
-fn wide(scene: &ValidScene) -> ValidScene {
+/// Scenes with sampled lamps, and their settings.
+const LIT: [(&str, &[&str]); 4] = [
+    (
+        "floor-and-light",
+        &["sampling.depths=3", "sampling.lights=auto"],
+    ),
+    (
+        "cornell-mirror",
+        &["sampling.depths=3", "sampling.lights=auto"],
+    ),
+    (
+        "cornell-ggx",
+        &["sampling.depths=3", "sampling.lights=auto"],
+    ),
+    ("terrace", &["sun.radiance=[2, 1.8, 1.5]"]),
+];
+/// Path bits of these scenes' reference means.
+const LIT_TRUTH: u32 = 18;
+
+fn by_estimators(promises: &mut Promises) {
+    println!("| scene | error | estimator | queries | within | processor time |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    let (mut queries, mut seconds) = (1.0, 1.0);
+    let mut kept = true;
+    let errors = &ERRORS[..2];
+    for (name, sets) in LIT {
+        let wide = wide(&scene(name, sets, ERRORS[0]), LIT_TRUTH);
+        let truth = truth(&wide);
+        for &error in errors {
+            let asked = scene(name, sets, error);
+            let [auto, counting] = [Estimator::Auto, Estimator::AdaptiveBayes].map(|estimator| {
+                let begun = processor::seconds();
+                let options = plan::PlanOptions {
+                    estimator: Some(estimator),
+                    ..plan::PlanOptions::default()
+                };
+                let planned: Plan = plan::plan(&asked, &options).unwrap().unwrap();
+                let (queries, measured) = counted(&asked, &planned, &truth);
+                let seconds = processor::seconds() - begun;
+                println!("| {name} | {error} | {estimator} | {queries:.0} | {measured:.4} | {seconds:.1} s |");
+                kept &= measured >= CONFIDENCE;
+                [queries, seconds]
+            });
+            queries *= counting[0] / auto[0];
+            seconds *= auto[1] / counting[1];
+        }
+    }
+    let cases = (LIT.len() * errors.len()) as f64;
+    let (queries, seconds) = (queries.powf(1.0 / cases), seconds.powf(1.0 / cases));
+    promises.judge(
+        "plans by `auto` and `adaptive-bayes` keep their accuracy",
+        kept,
+    );
+    promises.judge(
+        &format!("plans by `auto` take {queries:.2} times fewer queries, more than 1"),
+        queries > 1.0,
+    );
+    promises.judge(
+        &format!("plans by `auto` take {seconds:.2} times the processor time, at most 2"),
+        seconds <= 2.0,
+    );
+}
+
+/// Returns the scene with 2^`bits` paths, for the reference means.
+fn wide(scene: &ValidScene, bits: u32) -> ValidScene {
     let mut parameters = scene.parameters();
-    parameters.sampling.path_bits = TRUTH.0;
+    parameters.sampling.path_bits = bits;
     scene.with_parameters(parameters).unwrap()
 }
 
 fn truth(wide: &ValidScene) -> Means {
     let pixels = spread([SIDE; 2], u64::MAX);
     let real = Real::new(wide, TRUTH.1).unwrap();
-    prefix_means(&real, &pixels, &[TRUTH.0], &Workers::default())
+    let bits = wide.scene().sampling.path_bits;
+    prefix_means(&real, &pixels, &[bits], &Workers::default())
         .unwrap()
         .remove(0)
 }
@@ -279,7 +348,7 @@ fn lamps_pay() -> bool {
         ("sampled", &[LIT, "sampling.lights=auto"]),
     ] {
         let asked = scene("cornell-box", sets, ERROR);
-        let wide = wide(&asked);
+        let wide = wide(&asked, TRUTH.0);
         let truth = truth(&wide);
         let planned: Plan = plan::plan(&asked, &plan::PlanOptions::default())
             .unwrap()

@@ -27,11 +27,11 @@ use crate::common::{Arguments, Promises, bodies, load, mesh};
 use qrt::circuit::lower::{self, Cost};
 use qrt::core::compile::{Passes, Strategy};
 use qrt::core::oracle::{Oracle, OracleOptions, Oracles, StrategyCost};
-use qrt::core::tracer::PixelClass;
 use qrt::lab::layouts;
 use qrt::runtime::workers::Workers;
 use qrt::scene::front;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::PixelClass;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Instant;
@@ -325,7 +325,7 @@ fn auto(root: &Path, qubits: u64) -> (StrategyCost, f64) {
     let scene = load(root, "cornell-box", &[]);
     let started = Instant::now();
     let oracles = Oracles::new(&scene);
-    let all = oracles.layouts(0, PixelClass::default());
+    let all = oracles.layouts(oracles.name(0, PixelClass::default()));
     let strategy = all.cheapest(qubits);
     let seconds = started.elapsed().as_secs_f64();
     let layout = strategy.and_then(|strategy| all.under(strategy));
@@ -337,7 +337,7 @@ fn pareto(root: &Path) -> (Vec<StrategyCost>, f64) {
     let scene = load(root, "cornell-box", &[]);
     let started = Instant::now();
     let oracles = Oracles::new(&scene);
-    let all = oracles.layouts(0, PixelClass::default());
+    let all = oracles.layouts(oracles.name(0, PixelClass::default()));
     let front = layouts::front(&all, &Workers::default());
     let front = front.unwrap_or_else(|error| panic!("{error}"));
     let seconds = started.elapsed().as_secs_f64();
@@ -419,7 +419,9 @@ fn grown(
     let costs = sizes.iter().map(|&size| {
         let scene = scene(size);
         let oracles = Oracles::new(&scene);
-        let layout = oracles.layouts(0, PixelClass::default()).under(strategy);
+        let layout = oracles
+            .layouts(oracles.name(0, PixelClass::default()))
+            .under(strategy);
         let cost = layout.unwrap_or_else(|error| panic!("{error}")).cost;
         let (toffoli, qubits) = (cost.toffoli, cost.qubits);
         println!("    {size:4}  {toffoli:9} Toffoli  {qubits:7} qubits");

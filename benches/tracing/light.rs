@@ -12,11 +12,11 @@
 
 use crate::common::{Arguments, Promises};
 use qrt::core::oracle::{Oracle, call_cost};
-use qrt::core::tracer::{PixelClass, PixelClasses};
 use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front::load;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::{PixelClass, PixelClasses};
 use std::path::Path;
 
 /// The part of the film in which errors are measured: it sees no lamp.

@@ -124,20 +124,6 @@ impl<'a, M: Machine, F: CallFrame, const INVERSE: bool> Caller<'a, M, F, INVERSE
             frame: PhantomData,
         }
     }
-
-    /// Calls a reversible function with `registers`.
-    #[inline(always)]
-    pub fn call<G, H, P, Q>(mut self, function: G, registers: Q)
-    where
-        G: Reversible<H, P>,
-        H: Is<Self>,
-        P: Registers<M::Register>,
-        Q: Registers<M::Register>,
-        Q::Formats: Handed<P::Formats>,
-    {
-        let registers = <Q::Formats as Handed<P::Formats>>::handed::<M::Register>(registers);
-        function.run(H::is(&mut self), registers);
-    }
 }
 
 /// The type of a function's host, wrapped: `(H,)` for `H`. The wrapper makes the compiler establish
@@ -151,16 +137,60 @@ impl<H> HostOf for (H,) {
     type Host = H;
 }
 
-/// A function's host type that equals `T`.
-pub trait Is<T>: HostOf {
-    /// Returns `host` as the function's host type.
-    fn is(host: &mut T) -> &mut Self::Host;
+/// Panics with `message` unless a condition of generated code holds. The compiler shows the message
+/// alone, and no macro of the panic's.
+///
+/// ```
+/// const _: () = qrt_circuit::demand(2 + 2 == 4, "the sum is not four");
+/// ```
+#[track_caller]
+#[inline(always)]
+pub const fn demand(holds: bool, message: &'static str) {
+    assert!(holds, "{}", message);
 }
 
-impl<H> Is<H> for (H,) {
+/// A function's host, whose type is `H`, wrapped.
+pub struct HostRef<'a, H: HostOf>(&'a mut H::Host);
+
+/// A type of no value. With an implementation for it, a trait has two that are possible, so the
+/// compiler chooses none before the types are known otherwise.
+#[derive(Debug)]
+pub enum Undetermined {}
+
+impl HostOf for Undetermined {
+    type Host = Self;
+}
+
+// Every type implements the traits of a call, and generated code takes them from the type parameter
+// of the function that calls. If they are not implemented, the compiler shows the message alone: it
+// neither says so again by the traits' names nor shows a bound.
+
+/// The type `T`, which generated code writes across all source text that an error underlines.
+pub type Itself<T> = T;
+
+/// A function's host type `H` that equals `T`, wrapped.
+#[diagnostic::on_unimplemented(
+    message = "this function is not reversible [QRT0812]",
+    label = "`#[reversible]` is missing before it",
+    note = "help: write `#[reversible]` before the function that is called"
+)]
+pub trait Is<H: HostOf, T> {
+    /// Returns `host` as the function's host.
+    fn is(host: &mut T) -> HostRef<'_, H>;
+}
+
+#[diagnostic::do_not_recommend]
+impl<M, H> Is<(H,), H> for M {
     #[inline(always)]
-    fn is(host: &mut H) -> &mut H {
-        host
+    fn is(host: &mut H) -> HostRef<'_, (H,)> {
+        HostRef(host)
+    }
+}
+
+#[diagnostic::do_not_recommend]
+impl<M, H> Is<Undetermined, H> for M {
+    fn is(_: &mut H) -> HostRef<'_, Undetermined> {
+        unreachable!("the host of no function")
     }
 }
 
@@ -201,30 +231,55 @@ argument! {
     [const N: usize] &'a mut [Reg<R, F>; N] = &'a mut [F; N];
 }
 
-/// The formats of the registers of a call. `T` are those that the function takes: their number and
+/// The formats of the registers of a call. The function takes `T` and is handed `S`: their number and
 /// formats must agree. Neither names the machine, so the compiler shows the error once, although a
-/// reversible function is compiled for several machines.
+/// reversible function is compiled for several machines. `V` stays unknown in an error, so that the
+/// compiler suggests no `where` bound.
 #[diagnostic::on_unimplemented(
-    message = "the function takes `{T}`, and is handed `{Self}` [QRT0813]",
+    message = "the function takes `{T}`, and is handed `{S}` [QRT0813]",
     label = "of another number, format or reference",
     note = "help: hand over a register for each parameter, of its format, by `&` or `&mut` as it is \
             declared; one whose width is computed goes where the parameter's is"
 )]
-pub trait Handed<T> {
+pub trait Handed<T, S, V> {
     /// Returns the registers unchanged.
-    fn handed<R>(registers: Self::Registers) -> T::Registers
+    fn handed<R, P, Q>(registers: Q) -> P
     where
-        Self: Formats<R>,
-        T: Formats<R>;
+        P: Registers<R, Formats = T>,
+        Q: Registers<R, Formats = S>,
+        T: Formats<R>,
+        S: Formats<R>;
 }
 
-impl<T> Handed<T> for T {
-    #[inline(always)]
-    fn handed<R>(registers: T::Registers) -> T::Registers
+#[diagnostic::do_not_recommend]
+impl<M, S> Handed<Undetermined, S, ()> for M {
+    fn handed<R, P, Q>(_: Q) -> P
     where
-        T: Formats<R>,
+        P: Registers<R, Formats = Undetermined>,
+        Q: Registers<R, Formats = S>,
+        Undetermined: Formats<R>,
+        S: Formats<R>,
     {
-        registers
+        unreachable!("the registers of no function")
+    }
+}
+
+/// The registers of a machine whose registers are `R`, by the formats of `P`.
+type OfFormats<R, P> = <<P as Registers<R>>::Formats as Formats<R>>::Registers;
+
+#[inline(always)]
+fn by_formats<R, P: Registers<R>>(registers: P) -> OfFormats<R, P> {
+    registers
+}
+
+#[inline(always)]
+fn of_formats<R, P: Registers<R>>(registers: OfFormats<R, P>) -> P {
+    registers
+}
+
+impl<H: HostOf> fmt::Debug for HostRef<'_, H> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("HostRef").finish_non_exhaustive()
     }
 }
 
@@ -246,28 +301,46 @@ impl<M: Machine, F: CallFrame, const INVERSE: bool> Host for Caller<'_, M, F, IN
     }
 }
 
-/// A function of `#[reversible]`, which takes a [`Host`] and the registers `P`.
+/// A function `G` of `#[reversible]`, which takes a [`Host`], whose type is `H`, wrapped, and the
+/// registers `P`.
 #[diagnostic::on_unimplemented(
     message = "this function is not reversible [QRT0812]",
     label = "`#[reversible]` is missing before it",
     note = "help: write `#[reversible]` before the function that is called"
 )]
-pub trait Reversible<H: HostOf, P> {
+pub trait Reversible<G, H: HostOf, P> {
     /// Runs the function.
-    fn run(self, host: &mut H::Host, registers: P);
+    fn run(function: G, host: HostRef<'_, H>, registers: P);
 }
 
 macro_rules! reversible {
     ($($register:ident)*) => {
         #[diagnostic::do_not_recommend]
-        impl<H: Host, Function, $($register),*> Reversible<(H,), ($($register,)*)> for Function
+        impl<M, H: Host, Function, $($register),*> Reversible<Function, (H,), ($($register,)*)> for M
         where
             Function: FnOnce(&mut H, $($register),*),
         {
             #[inline(always)]
             #[allow(non_snake_case)]
-            fn run(self, host: &mut H, ($($register,)*): ($($register,)*)) {
-                self(host, $($register),*);
+            fn run(
+                function: Function,
+                HostRef(host): HostRef<'_, (H,)>,
+                ($($register,)*): ($($register,)*),
+            ) {
+                function(host, $($register),*);
+            }
+        }
+
+        #[diagnostic::do_not_recommend]
+        impl<M, $($register),*> Handed<($($register,)*), ($($register,)*), ()> for M {
+            #[inline(always)]
+            fn handed<Register, P, Given>(registers: Given) -> P
+            where
+                P: Registers<Register, Formats = ($($register,)*)>,
+                Given: Registers<Register, Formats = ($($register,)*)>,
+                ($($register,)*): Formats<Register>,
+            {
+                of_formats::<Register, P>(by_formats::<Register, Given>(registers))
             }
         }
 

@@ -186,8 +186,8 @@ pub use cores::Cores;
 pub use evaluate::{Contents, Unclean};
 pub use gate::{Gate, GateCircuit, GateSink, Qubit};
 pub use host::{
-    BorrowedRegister, CallFrame, Caller, Formats, Handed, Host, HostOf, Is, Registers, Reversible,
-    Running, Undone,
+    BorrowedRegister, CallFrame, Caller, Formats, Handed, Host, HostOf, HostRef, Is, Itself,
+    Registers, Reversible, Running, Undetermined, Undone, demand,
 };
 pub use machine::{Call, Declaration, Machine};
 pub use multiples::{KnownSums, Multiples};

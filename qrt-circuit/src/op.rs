@@ -192,13 +192,15 @@ macro_rules! field {
         let _ = $field;
     };
 
-    (targets target $field:ident, $all:ident) => {
-        $all.push(*$field)
+    (each_target target $field:ident, $see:ident) => {
+        $see(*$field)
     };
-    (targets targets $field:ident, $all:ident) => {
-        $all.extend($field.iter().copied())
+    (each_target targets $field:ident, $see:ident) => {
+        for target in $field {
+            $see(*target);
+        }
     };
-    (targets $other:ident $field:ident, $all:ident) => {
+    (each_target $other:ident $field:ident, $see:ident) => {
         let _ = $field;
     };
 
@@ -266,7 +268,8 @@ macro_rules! operations {
                 }
             }
 
-            fn each_read<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
+            /// Calls `see` with each register that the operation reads or changes in place.
+            pub fn each_read<'a>(&'a self, see: &mut dyn FnMut(&'a R)) {
                 match self {
                     $( Self::$name { $($field),* } => { $( field!(each $kind $field, see); )* } )*
                 }
@@ -338,12 +341,19 @@ macro_rules! operations {
             /// Returns the registers of the results of an out-of-place operation.
             pub fn targets(&self) -> Vec<T> {
                 let mut all = Vec::new();
+                self.each_target(|target| all.push(target));
+                all
+            }
+
+            /// Calls `see` with each of [`Op::targets`], without a list of them.
+            #[inline]
+            pub fn each_target(&self, mut see: impl FnMut(T)) {
+                let _ = &mut see;
                 match self {
                     $( Self::$name { $($field),* } => {
-                        $( field!(targets $kind $field, all); )*
+                        $( field!(each_target $kind $field, see); )*
                     } )*
                 }
-                all
             }
         }
     };

@@ -31,6 +31,8 @@ pub struct Recorder {
     style: Style,
     /// The operation that computes each register.
     computed: HashMap<RegisterId, u32>,
+    /// The sums in place, if one that is repeated or undone is found again among the operations.
+    sums: Option<HashMap<Op, u32>>,
     block: BlockId,
     /// The most instructions that it records.
     most: usize,
@@ -87,13 +89,15 @@ impl Recorder {
             program,
             style,
             computed: HashMap::new(),
+            sums: None,
             block: BlockId::ROOT,
             most: MOST,
         }
     }
 
     /// Creates a recorder of a program whose registers, blocks and parameters are known:
-    /// declarations have their places in the list.
+    /// declarations have their places in the list. An [`Op::AddInto`] that subtracts what an earlier
+    /// one adds is recorded as its inverse.
     pub fn with_registers(
         registers: &[Declaration],
         blocks: Vec<Block>,
@@ -102,6 +106,7 @@ impl Recorder {
     ) -> Self {
         let mut recorder = Self::new(style);
         recorder.most = usize::MAX;
+        recorder.sums = Some(HashMap::new());
         let registers = registers.iter().map(register);
         recorder.program.registers = registers.collect();
         recorder.program.blocks = blocks;
@@ -190,16 +195,30 @@ impl Recorder {
             op = op.with_scratch(scratch);
         }
         let targets = op.targets();
-        let known = targets.first().and_then(|t| self.computed.get(t)).copied();
-        let place = known
-            .filter(|&place| self.program.ops[place as usize] == op)
-            .unwrap_or(self.program.ops.len() as u32);
+        let (place, inverse) = self.place(&op);
         if place as usize == self.program.ops.len() {
             self.program.ops.push(op);
         }
-        self.step(place, false);
+        self.step(place, inverse);
         self.computed.extend(targets.iter().map(|t| (*t, place)));
         targets
+    }
+
+    /// Returns the place of `op` among the program's operations, or the place after them, and true if it is the
+    /// inverse of the operation at that place.
+    fn place(&mut self, op: &Op) -> (u32, bool) {
+        let next = self.program.ops.len() as u32;
+        if let (Some(sums), Op::AddInto { .. }) = (&mut self.sums, op) {
+            let opposite = opposite(op).and_then(|opposite| sums.get(&opposite));
+            return match opposite {
+                Some(&place) => (place, true),
+                None => (*sums.entry(op.clone()).or_insert(next), false),
+            };
+        }
+        let first = op.targets().first().copied();
+        let known = first.and_then(|t| self.computed.get(&t)).copied();
+        let same = known.filter(|&place| self.program.ops[place as usize] == *op);
+        (same.unwrap_or(next), false)
     }
 
     fn step(&mut self, op: u32, inverse: bool) {
@@ -212,6 +231,24 @@ impl Recorder {
         let block = self.block;
         let instruction = Instruction { op, inverse, block };
         self.program.instructions.push(instruction);
+    }
+}
+
+/// The operation in place that undoes `op`, for a sum.
+fn opposite(op: &Op) -> Option<Op> {
+    match *op {
+        Op::AddInto {
+            a,
+            subtract,
+            when,
+            target,
+        } => Some(Op::AddInto {
+            a,
+            subtract: !subtract,
+            when,
+            target,
+        }),
+        _ => None,
     }
 }
 

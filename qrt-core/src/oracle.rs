@@ -44,22 +44,26 @@ pub use strategy_costs::{StrategyCost, StrategyCosts};
 use crate::compile::{
     BuildError, Builder, Label, NamedPlace, Passes, PixelWord, RealValue, StageName, Strategy,
 };
-use crate::tracer::{Arith, PixelClass, PixelClasses, Stage};
-use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word, lower};
+use qrt_circuit::{
+    Bit, Block, BlockId, Instruction, Op, Operand, Program, RegisterId, Word, lower,
+};
 use qrt_scene::ComparatorAt;
 use qrt_scene::sampling::{PathPoints, SamplingError};
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{Arith, PixelClass, PixelClasses, Stage};
 use recording::{PrimaryHit, Recording};
 use std::fmt;
 
-/// Fraction bits under `precision: { fraction: auto }`.
-pub const DEFAULT_FRACTION: u32 = 16;
+pub use qrt_scene::DEFAULT_FRACTION;
 
 /// The number of the channel that holds the luminance.
 pub const LUMINANCE_CHANNEL: usize = 3;
 
 /// The number of the channel that counts paths on which a predicate holds.
 pub const PREDICATE_CHANNEL: usize = 4;
+
+/// Names of channels, by number.
+const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
 
 /// Weights of red, green and blue in the luminance, of the primaries of sRGB (ITU-R BT.709).
 pub(crate) const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -157,6 +161,15 @@ pub enum OracleError {
     },
     /// The normal of a smooth face of a mesh changes over a width that has too few bits.
     ThinSmoothFace {
+        /// The number of the mesh in the scene's list of primitives.
+        primitive: usize,
+        /// Number of fraction bits of the circuit's numbers.
+        fraction: u32,
+        /// Least number of fraction bits that the face needs.
+        needed: u32,
+    },
+    /// The colours of a face of a mesh change over a width that has too few bits.
+    ThinColouredFace {
         /// The number of the mesh in the scene's list of primitives.
         primitive: usize,
         /// Number of fraction bits of the circuit's numbers.
@@ -344,10 +357,9 @@ impl Oracle {
     /// Compute, and then the comparison and the flip of channel number 0. Uncompute needs the same
     /// qubits as compute at each instruction, so it is not included.
     fn upto_flip(&self) -> Program {
-        let mut upto = self.flip(0);
+        let (mut upto, flip) = self.with_flip(0);
         let compute = self.program.instructions.iter().copied();
-        upto.instructions.splice(0..0, compute);
-        upto.inputs.clone_from(&self.program.inputs);
+        upto.instructions = compute.chain(flip).collect();
         upto
     }
 
@@ -374,24 +386,32 @@ impl Oracle {
     /// Compares with the comparator, flips the phase, and undoes the comparison: the part between
     /// compute and uncompute of channel number `channel` of [`Oracle::channels`].
     pub fn flip(&self, channel: usize) -> Program {
-        let mut program = self.program.clone();
-        let block = BlockId(program.blocks.len() as u32);
-        let label = Label {
-            stage: StageName::CompareAndFlip,
-            depth: None,
-        };
-        program.blocks.push(label.block(Some(BlockId::ROOT)));
-        let first = program.ops.len() as u32;
-        let steps = self.flip_steps(channel);
-        let instruction = |&(step, inverse): &(u32, bool)| Instruction {
-            op: first + step,
-            inverse,
-            block,
-        };
-        program.instructions = steps.order.iter().map(instruction).collect();
-        program.ops.extend(steps.ops);
+        let (mut program, steps) = self.with_flip(channel);
+        program.instructions = steps;
         program.inputs = self.program.outputs();
         program
+    }
+
+    /// The program without instructions, with the operations of the flip of channel number `channel`, and the
+    /// instructions of the flip.
+    fn with_flip(&self, channel: usize) -> (Program, Vec<Instruction>) {
+        let own = &self.program;
+        let steps = self.flip_steps(channel);
+        let (block, flip) = steps.placed(own.ops.len(), own.blocks.len());
+        let mut ops = Vec::with_capacity(own.ops.len() + steps.ops.len());
+        ops.extend_from_slice(&own.ops);
+        ops.extend(steps.ops);
+        let mut blocks = own.blocks.clone();
+        blocks.push(block);
+        let program = Program {
+            registers: own.registers.clone(),
+            blocks,
+            parameters: own.parameters.clone(),
+            ops,
+            instructions: Vec::new(),
+            inputs: own.inputs.clone(),
+        };
+        (program, flip)
     }
 
     /// The operations of [`Oracle::flip`], and their order.
@@ -431,14 +451,51 @@ impl Oracle {
     /// The whole oracle of channel number `channel` of [`Oracle::channels`]: compute, compare,
     /// flip, uncompute.
     pub fn whole(&self, channel: usize) -> Program {
-        let mut whole = self.flip(channel);
-        let undo = self.program.inverse().instructions;
-        let flip = std::mem::take(&mut whole.instructions);
+        let (mut whole, flip) = self.with_flip(channel);
         whole.instructions.clone_from(&self.program.instructions);
-        whole.instructions.extend(flip);
-        whole.instructions.extend(undo);
-        whole.inputs.clone_from(&self.program.inputs);
+        append_flip(&mut whole.instructions, &flip);
         whole
+    }
+
+    /// Calls `each` with [`Oracle::whole`] of channel number 0, and returns both. The registers and the operations
+    /// of a large program take a gigabyte; until `each` returns there is one copy of them.
+    pub(crate) fn with_whole<T>(&mut self, each: impl FnOnce(&Program) -> T) -> (Program, T) {
+        let steps = self.flip_steps(0);
+        let mut whole = std::mem::take(&mut self.program);
+        let [ops, blocks, compute] = [
+            whole.ops.len(),
+            whole.blocks.len(),
+            whole.instructions.len(),
+        ];
+        let (block, flip) = steps.placed(ops, blocks);
+        whole.ops.reserve_exact(steps.ops.len());
+        whole.ops.extend(steps.ops);
+        whole.blocks.push(block);
+        append_flip(&mut whole.instructions, &flip);
+        let result = each(&whole);
+        self.program = Program {
+            registers: whole.registers.clone(),
+            blocks: whole.blocks[..blocks].to_vec(),
+            parameters: whole.parameters.clone(),
+            ops: whole.ops[..ops].to_vec(),
+            instructions: whole.instructions[..compute].to_vec(),
+            inputs: whole.inputs.clone(),
+        };
+        (whole, result)
+    }
+}
+
+/// Appends the flip and the inverse of compute to compute.
+fn append_flip(compute: &mut Vec<Instruction>, flip: &[Instruction]) {
+    let own = compute.len();
+    compute.reserve_exact(own + flip.len());
+    compute.extend_from_slice(flip);
+    for place in (0..own).rev() {
+        let instruction = compute[place];
+        compute.push(Instruction {
+            inverse: !instruction.inverse,
+            ..instruction
+        });
     }
 }
 
@@ -446,6 +503,23 @@ struct FlipSteps {
     ops: Vec<Op>,
     /// Indices of the operations to run, in order, each with true if it is inverted.
     order: &'static [(u32, bool)],
+}
+
+impl FlipSteps {
+    /// The block of the flip, and its instructions, after a program of `ops` operations and `blocks` blocks.
+    fn placed(&self, ops: usize, blocks: usize) -> (Block, Vec<Instruction>) {
+        let label = Label {
+            stage: StageName::CompareAndFlip,
+            depth: None,
+        };
+        let instruction = |&(step, inverse): &(u32, bool)| Instruction {
+            op: ops as u32 + step,
+            inverse,
+            block: BlockId(blocks as u32),
+        };
+        let flip = self.order.iter().map(instruction).collect();
+        (label.block(Some(BlockId::ROOT)), flip)
+    }
 }
 
 /// One more than the greatest label of a face that a ray can meet.

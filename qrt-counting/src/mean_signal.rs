@@ -555,16 +555,26 @@ mod tests {
         assert!(worst < 1e-10, "{worst}");
     }
 
-    /// Squares the iterate's matrix 40 times with 320 bits.
+    /// A few levels, and sixteen of them, under slopes and references of several kinds.
     #[test]
     fn a_depth_of_2_to_the_40_is_exact_to_a_billionth() {
-        let levels = [(0, 1000), (3, 20), (5, 300), (200, 7)];
-        let phases = LevelPhases::new(7.3, 0.02, 8, 47).unwrap();
-        let signal = MeanSignal::new(&levels, phases);
+        let few = [(0, 1000), (3, 20), (5, 300), (200, 7)];
+        let many: Vec<(u64, u64)> = (0..16).map(|n| (n * n, 1 + 40 / (n + 1))).collect();
+        for (levels, slope, reference) in
+            [(&few[..], 7.3, 0.02), (&many, 3.1, 0.11), (&many, 0.4, 0.9)]
+        {
+            is_exact(levels, LevelPhases::new(slope, reference, 8, 47).unwrap());
+        }
+    }
+
+    /// Squares the iterate's matrix 40 times with 320 bits.
+    fn is_exact(levels: &[(u64, u64)], phases: LevelPhases) {
+        let signal = MeanSignal::new(levels, phases);
         let n = levels.len();
         let big = |value: f64| BigFloat::from_f64(value, P);
         let mut consts = Consts::new().unwrap();
-        let total = big(1327.0);
+        let paths: u64 = levels.iter().map(|(_, paths)| paths).sum();
+        let total = big(paths as f64);
         let psi: Vec<BigFloat> = (levels.iter())
             .map(|(_, paths)| big(*paths as f64).div(&total, P, RM).sqrt(P, RM))
             .collect();

@@ -36,17 +36,24 @@ pub fn front(
         total: all.len() as u64,
         resumed: 0,
     });
-    let call = |&strategy: &Strategy| {
+    let call = |&place: &usize| {
         if workers.cancelled() {
             return Err(LayoutsError::Cancelled);
         }
-        let call = oracle.call(strategy).map_err(LayoutsError::Oracle)?;
+        let call = oracle.call(all[place]).map_err(LayoutsError::Oracle)?;
         workers.report(Progress::Finished(1));
-        Ok((call, strategy))
+        Ok((place, call))
     };
-    let calls: Result<Vec<(CallCost, Strategy)>, LayoutsError> =
-        workers.on_threads(|| all.par_iter().map(call).collect())?;
-    let front = CallCost::front(calls?);
+    let mut calls: Vec<(usize, CallCost)> = Vec::with_capacity(all.len());
+    for group in Strategy::groups(&all) {
+        let found: Result<Vec<_>, _> =
+            workers.on_threads(|| group.par_iter().map(call).collect())?;
+        calls.extend(found?);
+    }
+    // Of strategies with one cost, the first is in the front.
+    calls.sort_unstable_by_key(|(place, _)| *place);
+    let calls = calls.into_iter().map(|(place, call)| (call, all[place]));
+    let front = CallCost::front(calls.collect());
     let layout = |(_, strategy): &(CallCost, Strategy)| {
         if workers.cancelled() {
             return Err(LayoutsError::Cancelled);
@@ -71,7 +78,7 @@ pub fn front_of_most_expensive(
     let Some(OracleCost { name, .. }) = OracleCost::most_expensive(asked) else {
         unreachable!("the pixels of a film have a class, which has three channels");
     };
-    let front = front(&oracles.layouts(name.channel, name.class), workers)?;
+    let front = front(&oracles.layouts(name), workers)?;
     Ok((name, front))
 }
 
@@ -100,7 +107,6 @@ pub fn drawing(front: &[StrategyCost], scene: &str) -> Canvas {
 mod tests {
     use super::*;
     use qrt_core::oracle::Oracles;
-    use qrt_core::tracer::PixelClass;
     use qrt_scene::front::load;
 
     #[test]
@@ -111,7 +117,7 @@ mod tests {
         );
         let scene = load(file.as_ref(), &[]).unwrap().valid;
         let oracles = Oracles::new(&scene);
-        let oracle = oracles.layouts(0, PixelClass::default());
+        let oracle = oracles.layouts(oracles.names()[0]);
         let front = front(&oracle, &Workers::default()).unwrap();
         assert_eq!(front[0].strategy, Strategy::KEEP);
         assert!(front.len() > 5, "{}", front.len());

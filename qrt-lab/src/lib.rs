@@ -9,7 +9,6 @@
 //!
 //! ```
 //! use qrt_core::oracle::Oracles;
-//! use qrt_core::tracer::PixelClass;
 //! use qrt_lab::physical::PictureCounts;
 //! use qrt_lab::verify::{self, verify};
 //!
@@ -35,7 +34,7 @@
 //! assert_eq!(report.paths, 2 << 4);
 //!
 //! let oracles = Oracles::new(&scene);
-//! let red = oracles.name(0, PixelClass::default());
+//! let red = oracles.names()[0];
 //! let counts = PictureCounts::for_scene(&oracles, red, None)?;
 //! assert!(counts.film.unitary.toffoli > counts.pixel.unitary.toffoli);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

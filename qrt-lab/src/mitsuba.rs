@@ -37,9 +37,9 @@
 use glam::DVec3;
 use qrt_drawing::escaped;
 use qrt_scene::lights::Cone;
-use qrt_scene::syntax::{Path, Problem, Renderer};
 use qrt_scene::valid::{Polygon, Scatter, Surface, ValidScene};
 use qrt_scene::{Camera, Checker, Film, Reflectance, Rgb, Sky};
+use qrt_syntax::{Path, Problem, Renderer};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::fmt::{self, Write};
@@ -137,11 +137,18 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     }
     let mut faces_of: Vec<Vec<Face<'_>>> = vec![Vec::new(); scene.surfaces().len()];
     let mut smooth = scene.smooth_faces().iter().peekable();
+    let mut coloured = scene.coloured_faces().iter().peekable();
     for (number, polygon) in scene.polygons().iter().enumerate() {
         let smooth = smooth.next_if(|face| face.polygon == number);
+        let coloured = coloured.next_if(|face| face.polygon == number);
         if let Some(faces) = faces_of.get_mut(polygon.surface as usize) {
             let normals = smooth.map(|face| face.normals);
-            faces.push(Face { polygon, normals });
+            let colours = coloured.map(|face| face.colours);
+            faces.push(Face {
+                polygon,
+                normals,
+                colours,
+            });
         }
     }
     let used = scene.surfaces().iter().zip(&faces_of).enumerate();
@@ -158,7 +165,8 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
         if checker.is_some() && alone.iter().any(|face| face.polygon.disc) {
             return Err(NoCounterpart::new(surface, CHECKER));
         }
-        let material = material(surface)?;
+        let is_coloured = faces.iter().any(|face| face.colours.is_some());
+        let plain_material = material(surface, false)?;
         for face in alone {
             let kind = if face.polygon.disc {
                 "disk"
@@ -169,7 +177,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
                 "    <shape type=\"{kind}\">\n        <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n",
                 square_to(face.polygon)
             );
-            text.push_str(&(shape + &material));
+            text.push_str(&(shape + &plain_material));
         }
         if faces.is_empty() {
             continue;
@@ -182,7 +190,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
             escaped(&file),
             !is_smooth
         );
-        text.push_str(&(shape + &material));
+        text.push_str(&(shape + &material(surface, is_coloured)?));
         meshes.push(MeshFile {
             file,
             bytes: {
@@ -193,7 +201,8 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
                 let Some(cells) = cells.collect::<Option<Vec<_>>>() else {
                     return Err(NoCounterpart::new(surface, CHECKER));
                 };
-                ply(&faces, &cells, is_smooth)
+                let tint = surface.tint().filter(|_| is_coloured);
+                ply(&faces, &cells, is_smooth, tint.map(one_colour))
             },
         });
     }
@@ -208,7 +217,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
         if surface.checker().is_some() {
             return Err(NoCounterpart::new(surface, CHECKER));
         }
-        text.push_str(&(shape + &material(surface)?));
+        text.push_str(&(shape + &material(surface, false)?));
     }
     text.push_str("</scene>\n");
     Ok(Exported { text, meshes })
@@ -240,7 +249,7 @@ fn emitter(sky: &Sky, stem: &str, files: &mut Vec<MeshFile>) -> String {
     }
     let file = format!("{stem}.sky.pfm");
     // The picture's up is y.
-    let up = sky.up.normalize();
+    let up = sky.upwards();
     let side = if up.x.abs() < 0.5 { DVec3::X } else { DVec3::Z };
     let x = (side - up * side.dot(up)).normalize();
     let columns = [x, up, x.cross(up)];
@@ -273,7 +282,7 @@ fn sun_disc(scene: &ValidScene, (cone, radiance): (Cone, Rgb)) -> String {
     let mut radiance = radiance;
     if let Some(sky) = scene.scene().sky {
         let [horizon, zenith] = sky.gradient();
-        let height = sky.up.normalize().dot(cone.axis).max(0.0);
+        let height = sky.upwards().dot(cone.axis).max(0.0);
         for (channel, radiance) in radiance.iter_mut().enumerate() {
             *radiance += horizon[channel] + height * (zenith[channel] - horizon[channel]);
         }
@@ -441,15 +450,21 @@ fn matrix(columns: [DVec3; 4]) -> String {
     format!("{} 0 0 0 1", rows.join(" "))
 }
 
-/// Returns the XML of a surface's material and emitter, and the end tag of the shape.
-fn material(surface: &Surface) -> Result<String, NoCounterpart> {
+/// The albedo or reflectance of a surface without a checker.
+fn one_colour(tint: &Reflectance) -> Rgb {
+    tint.colours().first().copied().unwrap_or_default()
+}
+
+/// Returns the XML of a surface's material and emitter, and the end tag of the shape. If `is_coloured`, the albedo or
+/// reflectance is that of the shape's vertices.
+fn material(surface: &Surface, is_coloured: bool) -> Result<String, NoCounterpart> {
     let colour =
         |name: &str, value: Rgb| format!(r#"<rgb name="{name}" value="{}"/>"#, triple(value));
     let reflected = |name: &str, value: Reflectance| match value.checker() {
-        None => colour(
-            name,
-            value.colours().concat().try_into().unwrap_or_default(),
+        None if is_coloured => format!(
+            r#"<texture type="mesh_attribute" name="{name}"><string name="name" value="vertex_color"/></texture>"#
         ),
+        None => colour(name, one_colour(&value)),
         Some(&Checker {
             of: [first, second],
             ..
@@ -528,11 +543,12 @@ impl fmt::Display for Number {
     }
 }
 
-/// A polygon, and the normals of its corners if it is smooth.
+/// A polygon, with the normals of its corners if it is smooth, and with their colours if it has any.
 #[derive(Clone, Copy)]
 struct Face<'a> {
     polygon: &'a Polygon,
     normals: Option<[DVec3; 3]>,
+    colours: Option<[Rgb; 3]>,
 }
 
 impl Face<'_> {
@@ -544,22 +560,36 @@ impl Face<'_> {
             None => [(b - a).cross(c - a).normalize(); 4],
         }
     }
+
+    /// The `tint` of each corner: times its colour, if it has one.
+    fn tints(&self, tint: Rgb) -> [Rgb; 4] {
+        let [a, b, c] = self.colours.unwrap_or([[1.0; 3]; 3]);
+        [a, b, c, c].map(|colour| std::array::from_fn(|k| tint[k] * colour[k]))
+    }
 }
 
-/// Writes a binary PLY file of triangles: their corners, with normals if `has_normals`, and with texture
-/// coordinates by the `cells` of the faces. Equal vertices are shared. A quad is split along v0 - v2.
-fn ply(faces: &[&Face<'_>], cells: &[Option<[Cell; 2]>], has_normals: bool) -> Vec<u8> {
+/// Writes a binary PLY file of triangles: their corners, with normals if `has_normals`, with texture
+/// coordinates by the `cells` of the faces, and with the colours of corners times `tint` if there is one. Equal
+/// vertices are shared. A quad is split along v0 - v2.
+fn ply(
+    faces: &[&Face<'_>],
+    cells: &[Option<[Cell; 2]>],
+    has_normals: bool,
+    tint: Option<Rgb>,
+) -> Vec<u8> {
     let mut vertices: Vec<Vec<f64>> = Vec::new();
     let mut numbers = HashMap::new();
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for (face, cells) in faces.iter().zip(cells) {
+        let tints = face.tints(tint.unwrap_or([1.0; 3]));
         let corners = face.polygon.outline().iter().zip(face.normals());
-        let corners = corners.map(|(&corner, normal)| {
+        let corners = corners.zip(tints).map(|((&corner, normal), colour)| {
             let normal = has_normals.then(|| normal.to_array());
             let uv = cells.map(|cells| cells.map(|cell| cell.at(corner)));
             let mut vertex = corner.to_array().to_vec();
             vertex.extend(normal.into_iter().flatten());
             vertex.extend(uv.into_iter().flatten());
+            vertex.extend(tint.map(|_| colour).into_iter().flatten());
             let key: Vec<u64> = vertex.iter().map(|x| x.to_bits()).collect();
             *numbers.entry(key).or_insert_with(|| {
                 vertices.push(vertex);
@@ -572,7 +602,12 @@ fn ply(faces: &[&Face<'_>], cells: &[Option<[Cell; 2]>], has_normals: bool) -> V
         }
     }
     let has_uv = cells.iter().any(Option::is_some);
-    let names = [("x y z", true), ("nx ny nz", has_normals), ("u v", has_uv)];
+    let names = [
+        ("x y z", true),
+        ("nx ny nz", has_normals),
+        ("u v", has_uv),
+        ("r g b", tint.is_some()),
+    ];
     let names = names.into_iter().filter(|(_, is_there)| *is_there);
     let names = names.flat_map(|(names, _)| names.split(' '));
     let properties: Vec<String> = names

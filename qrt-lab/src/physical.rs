@@ -12,8 +12,9 @@
 //!   estimator without one runs the planned number of iterates, or else at most (T - 1) B, without
 //!   a control. It measures the index at most that number of times, because a shot takes at least
 //!   one query. `auto` is counted as if it counted every pixel: the mean-phase circuit has no
-//!   comparator, and a table of about 1 % of the oracle. Strata fix qubits of the index. This saves
-//!   part of O_0, and the counts ignore the saving.
+//!   comparator, and a table of about 1 % of the oracle. Where parts of a comparator are
+//!   counted one by one, qubits of the index are fixed. This saves part of O_0, and the counts ignore
+//!   the saving.
 //! * All channels of all pixels are counted one after another on the same qubits, except those
 //!   whose proven bound is black. The oracle of all pixels is the oracle of one class of pixels,
 //!   for example the most expensive.

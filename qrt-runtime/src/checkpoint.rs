@@ -21,6 +21,7 @@ mod format;
 #[cfg(test)]
 mod tests;
 
+pub use crate::counted_pixels::CountedPixels;
 pub use error::{CheckpointDifference, CheckpointError};
 
 use crate::disk::{self, DiskFile};
@@ -72,15 +73,8 @@ pub struct Tile {
     pub height: u32,
     /// Linear RGB, row by row.
     pub pixels: Vec<[f64; 3]>,
-    /// Oracle queries that each pixel used.
-    pub queries: Vec<u64>,
-    /// Good indices of each pixel's channels; 0 for a channel that is not counted.
-    pub good: Vec<[u64; 3]>,
-    /// Width of the interval of each pixel's channels, in radiance; 0 for a channel that is not
-    /// estimated.
-    pub widths: Vec<[f64; 3]>,
-    /// Strata in which each pixel's channels were counted; 0 for a channel that is not counted.
-    pub strata: Vec<[u8; 3]>,
+    /// The pixels' further figures.
+    pub counted: CountedPixels,
 }
 
 /// The sums over the first paths of a part of an unfinished pixel.
@@ -114,10 +108,7 @@ impl Tile {
             width,
             height,
             pixels: Vec::new(),
-            queries: Vec::new(),
-            good: Vec::new(),
-            widths: Vec::new(),
-            strata: Vec::new(),
+            counted: CountedPixels::default(),
         }
     }
 }
@@ -125,7 +116,7 @@ impl Tile {
 /// An open checkpoint, locked against other processes.
 ///
 /// ```
-/// use qrt_runtime::checkpoint::{Checkpoint, Header, Tile};
+/// use qrt_runtime::checkpoint::{Checkpoint, CountedPixels, Header, Tile};
 /// let path = std::env::temp_dir().join(format!("qrt-doc-{}.tiles", std::process::id()));
 /// let header = Header {
 ///     scene_hash: "9f86d081".into(),
@@ -135,9 +126,13 @@ impl Tile {
 ///     height: 1,
 ///     crop: [0, 0, 2, 1],
 /// };
-/// let (pixels, queries) = (vec![[0.5; 3]], vec![4096]);
-/// let (good, strata, widths) = (vec![[512; 3]], vec![[1; 3]], vec![[0.01; 3]]);
-/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels, queries, good, widths, strata };
+/// let counted = CountedPixels {
+///     queries: vec![4096],
+///     good: vec![[512; 3]],
+///     widths: vec![[0.01; 3]],
+///     strata: vec![[1; 3]],
+/// };
+/// let tile = Tile { x: 1, y: 0, width: 1, height: 1, pixels: vec![[0.5; 3]], counted };
 /// Checkpoint::create(&path, &header)?.append(&tile)?;
 /// let (_, finished) = Checkpoint::open(&path, &header)?;
 /// assert_eq!(finished, [tile]);
@@ -259,14 +254,8 @@ impl Checkpoint {
     /// written.
     pub fn append(&mut self, tile: &Tile) -> Result<(), CheckpointError> {
         let area = tile.area_within(self.crop);
-        let lengths = [
-            tile.pixels.len(),
-            tile.queries.len(),
-            tile.good.len(),
-            tile.widths.len(),
-            tile.strata.len(),
-        ];
-        if lengths.iter().any(|&length| area != Some(length as u64)) {
+        let pixels = tile.pixels.len() as u64;
+        if area != Some(pixels) || !tile.counted.fill(pixels) {
             let &Tile {
                 x,
                 y,

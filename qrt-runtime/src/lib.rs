@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod checkpoint;
+mod counted_pixels;
 pub mod disk;
 pub mod image;
 pub mod line_file;
@@ -21,6 +22,7 @@ mod scratch;
 pub mod search;
 #[cfg(feature = "parts")]
 mod serialized;
+pub mod traced_path;
 pub mod workers;
 
 pub use prepared::Prepared;

@@ -10,14 +10,14 @@
 
 mod visibility;
 
-pub use visibility::{DEFAULT_FAILURE, Searched, Visibility};
+pub use visibility::{DEFAULT_FAILURE, PrimaryHitsFound, Searched, Visibility};
 
 use crate::named::named;
 use crate::path_machines::{Defect, OracleMachine, PathMachine, Real, Simd};
 use crate::search::RoundsError;
 use qrt_core::oracle::{Marks, Oracle, OracleError, OracleOptions, Oracles, Predicate};
-use qrt_core::tracer::{ByClass, PixelClass};
 use qrt_scene::sampling::SamplingError;
+use qrt_tracer::ByClass;
 use std::sync::Arc;
 
 named! {
@@ -50,6 +50,15 @@ pub struct MachineOptions<'a> {
     pub predicate: Option<(&'a Predicate, Marks)>,
     /// True if a circuit's machine reports colours beside counts.
     pub colours: bool,
+}
+
+impl MachineOptions<'_> {
+    /// True if the machines run the scene's own oracle, of all channels.
+    pub(crate) fn runs_all_channels(&self) -> bool {
+        self.model != Model::Real
+            && self.visibility == Visibility::Classical
+            && self.predicate.is_none()
+    }
 }
 
 /// A machine for each class of a scene's pixels.
@@ -114,12 +123,13 @@ pub fn path_machines(
     options: &MachineOptions<'_>,
 ) -> Result<Machines, MachineError> {
     let search = visibility::search(oracles.scene(), options)?;
-    let machine = |class: PixelClass| -> Result<Box<dyn PathMachine>, MachineError> {
+    let machine = |class| -> Result<Box<dyn PathMachine>, MachineError> {
         let MachineOptions { model, seed, .. } = *options;
         if model == Model::Real {
+            let real = Real::of_class(oracles.scene(), seed, class)?;
             let real = match options.predicate {
-                Some((predicate, marks)) => Real::of_predicate(predicate, marks, seed, class)?,
-                None => Real::of_class(oracles.scene(), seed, class)?,
+                Some((predicate, marks)) => real.with_predicate(predicate, marks),
+                None => real,
             };
             return Ok(Box::new(real.with_simd(options.simd)));
         }
@@ -146,7 +156,7 @@ pub fn path_machines(
     };
     let by_class = match options.predicate {
         // A mark has no scale, so one machine serves all pixels.
-        Some((_, Marks::Paths)) => ByClass::one(machine(PixelClass::default())?),
+        Some((_, Marks::Paths)) => ByClass::try_one(machine)?,
         _ => ByClass::try_new(oracles.classes(), machine)?,
     };
     Ok(Machines {

@@ -1,12 +1,12 @@
 //! A scene that is ready for work: its parameters are chosen, its circuit is compiled once and fits.
 
 use crate::memory::{CircuitSize, CircuitWork, Memory, MemoryError};
-use crate::models::{MachineError, MachineOptions, Machines, Model, Visibility, path_machines};
+use crate::models::{MachineError, MachineOptions, Machines, path_machines};
 use crate::plan::{self, Plan, PlanError, PlanFigures, plan};
 use qrt_core::oracle::{OracleError, Oracles, check_budget};
-use qrt_core::tracer::PixelClass;
-use qrt_scene::syntax::Problem;
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::Problem;
+use qrt_tracer::ByClass;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
@@ -51,8 +51,7 @@ pub struct Prepared<'a> {
     /// The hash of the scene as it is written.
     scene_hash: String,
     memory: Memory,
-    /// By class of pixels.
-    sizes: [OnceLock<CircuitSize>; PixelClass::ALL.len()],
+    sizes: ByClass<OnceLock<CircuitSize>>,
 }
 
 /// An error that a scene cannot be prepared for work.
@@ -114,12 +113,13 @@ impl<'a> Prepared<'a> {
             Some(plan) => (Cow::Owned(plan.scene), Some(plan.figures)),
             None => (Cow::Borrowed(scene), None),
         };
+        let oracles = Oracles::of_scene(traced);
         Self {
-            oracles: Oracles::of_scene(traced),
+            sizes: ByClass::defaults(oracles.classes()),
+            oracles,
             plan: figures,
             scene_hash: scene.fingerprint().to_string(),
             memory,
-            sizes: Default::default(),
         }
     }
 
@@ -127,8 +127,8 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn with_luminance(self) -> Self {
         Self {
+            sizes: ByClass::defaults(self.oracles.classes()),
             oracles: self.oracles.with_luminance(),
-            sizes: Default::default(),
             ..self
         }
     }
@@ -158,7 +158,7 @@ impl<'a> Prepared<'a> {
             plan: self.plan,
             scene_hash: self.scene_hash.clone(),
             memory: self.memory,
-            sizes: Default::default(),
+            sizes: ByClass::defaults(self.oracles.classes()),
         })
     }
 
@@ -173,7 +173,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// The hash of the scene as it is written, as 32 hexadecimal digits.
-    pub fn scene_hash(&self) -> &str {
+    pub(crate) fn scene_hash(&self) -> &str {
         &self.scene_hash
     }
 
@@ -193,13 +193,13 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// If the scene has no circuit, or compiling it does not fit into the memory budget.
     pub fn circuit_size(&self, pixel: [u32; 2]) -> Result<CircuitSize, PrepareError> {
-        let class = self.oracles.classes().class(pixel);
-        let size = &self.sizes[class as usize];
+        let size = self.sizes.at(pixel);
         if let Some(size) = size.get() {
             return Ok(*size);
         }
         let scene = self.scene();
         self.memory.keep_compiling(scene)?;
+        let class = self.oracles.classes().class(pixel);
         let oracle = if scene.scene().budget.is_some() {
             // The budget needs the costs, too, and both are assembled together.
             self.oracles.with_costs(class)?.0
@@ -253,10 +253,7 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// See [`MachineError`].
     pub fn machines(&self, options: &MachineOptions<'_>) -> Result<Machines, MachineError> {
-        let runs_all_channels = options.model != Model::Real
-            && options.visibility == Visibility::Classical
-            && options.predicate.is_none();
-        if runs_all_channels {
+        if options.runs_all_channels() {
             self.oracles.assemble_all_channels()?;
         } else {
             self.oracles.release();

@@ -5,9 +5,9 @@
 //! macros use that crate without the feature, and it would be built twice.
 
 use qrt_core::oracle::CallCost;
-use qrt_core::tracer::PixelClass;
 use qrt_counting::estimators::Noise;
 use qrt_scene::{Accuracy, Estimator, Sequence};
+use qrt_tracer::PixelClass;
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]
@@ -26,9 +26,52 @@ pub(crate) struct NoiseFields {
 
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "PixelClass")]
-pub(crate) enum PixelClassNames {
+enum PixelClassNames {
     MayMeetLamp,
     MeetsNoLamp,
+}
+
+/// The proven bounds on a path's colour, by class of pixels.
+pub(crate) mod bounds {
+    use super::PixelClassNames;
+    use qrt_tracer::{ByClass, PixelClass};
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Held {
+        /// The lamps' outlines: see [`ByClass::outlines`].
+        outlines: Option<Vec<Vec<[f64; 2]>>>,
+        bounds: Vec<Bound>,
+    }
+
+    /// The bounds in the pixels of a class.
+    #[derive(Serialize, Deserialize)]
+    struct Bound {
+        #[serde(with = "PixelClassNames")]
+        class: PixelClass,
+        bound: [f64; 3],
+    }
+
+    pub(crate) fn serialize<S: Serializer>(
+        bounds: &ByClass<[f64; 3]>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let outlines = bounds.outlines();
+        let bound = |&(class, bound): &(PixelClass, [f64; 3])| Bound { class, bound };
+        let bounds = bounds.entries().iter().map(bound).collect();
+        Held { outlines, bounds }.serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<ByClass<[f64; 3]>, D::Error> {
+        let Held { outlines, bounds } = Held::deserialize(deserializer)?;
+        let bounds = bounds.into_iter();
+        let bounds = bounds.map(|Bound { class, bound }| (class, bound));
+        let all = ByClass::of_parts(outlines, bounds.collect());
+        all.ok_or_else(|| D::Error::custom("no bound of any class"))
+    }
 }
 
 #[derive(Serialize, Deserialize)]

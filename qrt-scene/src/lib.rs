@@ -2,8 +2,8 @@
 //!
 //! * [`Scene`] is plain data, as its author wrote it; each of its parts is defined once, with its keys,
 //!   defaults, ranges and documentation.
-//! * [`front`] reads YAML and meshes (OBJ and MTL, PLY, glTF), [`syntax`] has the trees with places and the
-//!   problems that a scene can have, [`expr`] the expressions of user-defined BSDFs.
+//! * [`front`] reads YAML and meshes (OBJ and MTL, PLY, glTF). [`qrt_syntax`] has the trees with places and
+//!   the problems that a scene can have, [`qrt_syntax::expr`] the expressions of user-defined BSDFs.
 //! * [`valid`] checks a scene and reports all errors at once. A [`valid::ValidScene`] is the only way to
 //!   the crates above.
 //! * [`sampling`] maps path indices to points of the unit cube, and [`lights`] bounds light sampling.
@@ -24,14 +24,12 @@
 
 #![forbid(unsafe_code)]
 
-pub mod expr;
 pub mod front;
 pub mod lights;
 pub mod polygons;
 pub mod sampling;
 mod scene;
 pub mod schema;
-pub mod syntax;
 pub mod valid;
 
 pub use scene::*;

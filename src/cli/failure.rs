@@ -8,7 +8,7 @@ use qrt_lab::verify::VerifyError;
 use qrt_runtime::image::ImageError;
 use qrt_runtime::plan::PlanError;
 use qrt_runtime::render::{MergeError, RenderError};
-use qrt_scene::syntax::Report;
+use qrt_syntax::Report;
 use std::path::Path;
 use std::process::ExitCode;
 use std::{fmt, io};

@@ -1,7 +1,7 @@
 //! Describes a path in the words of a message.
 
-use qrt_runtime::predicates::trace_path_of;
 use qrt_runtime::render::Model;
+use qrt_runtime::traced_path::trace_path_of;
 use qrt_scene::valid::ValidScene;
 
 /// Returns a line on the hits of a path's rays, by model, seed, pixel and index; empty if tracing fails.

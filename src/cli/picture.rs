@@ -164,7 +164,7 @@ pub(crate) fn summary(output: &Path, rendered: &Rendered, clipped: u64) -> Strin
 
 /// Describes the cost of the search for primary hits; empty if there was none.
 fn search_summary(rendered: &Rendered) -> String {
-    let Some(searched) = rendered.searched else {
+    let Some(searched) = rendered.primary_hits.searched else {
         return String::new();
     };
     let root = libm::sqrt(searched.faces as f64);
@@ -176,7 +176,7 @@ fn search_summary(rendered: &Rendered) -> String {
     format!(
         "primary hits by {}: P = {} faces, {mean:.2} queries a ray = {:.2} sqrt(P) = {:.3} P, each of \
          {} Toffolis on {} qubits{promise}\n",
-        rendered.visibility.name(),
+        rendered.primary_hits.method.name(),
         searched.faces,
         mean / root,
         mean / searched.faces as f64,

@@ -10,8 +10,8 @@ use qrt_runtime::memory::{CircuitWork, Memory, compiling_seconds};
 use qrt_runtime::plan;
 use qrt_runtime::prepared::PrepareError;
 use qrt_scene::front::Loaded;
-use qrt_scene::syntax::Problem;
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::Problem;
 
 /// The preparation that a command asks for.
 pub(crate) struct Preparation<'a> {

@@ -12,7 +12,7 @@ use clap::Args;
 use qrt_core::inspect::{OraclePixel, grouped};
 use qrt_core::oracle::Oracles;
 use qrt_lab::simulate::{
-    MeanPhase, MeanPhaseSimulation, SimulateError, SimulateOptions, Simulation, simulate,
+    MeanPhase, MeanPhaseSimulation, Outcome, SimulateError, SimulateOptions, Simulation, simulate,
     simulate_film, simulate_mean_phase,
 };
 use qrt_lab::{draw, json};
@@ -26,7 +26,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
-/// Columns of the bars in the terminal.
+/// Columns of the bar of probability 1.
 const BAR: f64 = 32.0;
 
 /// Run a pixel's complete counting circuit as amplitudes
@@ -289,22 +289,22 @@ fn text(scene: &str, one: &Simulation) -> String {
     let width = (size / 2).to_string().len().max(3);
     let _ = writeln!(
         out,
-        "{:>width$}  {:<8}  {:<10}  {:<10}  drawn",
+        "{:>width$}  {:<8}  {:<10}  {:<10}  drawn  # simulated, | theory",
         "y", "S/N", "simulated", "theory"
     );
     let drawn = one.tally();
     for outcome in &one.outcomes {
         let sine = libm::sin(std::f64::consts::PI * outcome.y as f64 / size as f64);
         let times = drawn.get(&outcome.y).copied().unwrap_or(0);
-        let bar = "#".repeat((outcome.simulated * BAR).round() as usize);
-        let line = format!(
-            "{:>width$}  {:<8.6}  {:<10.8}  {:<10.8}  {times:<5}  {bar}",
+        let _ = writeln!(
+            out,
+            "{:>width$}  {:<8.6}  {:<10.8}  {:<10.8}  {times:<5}  {}",
             outcome.y,
             sine * sine,
             outcome.simulated,
-            outcome.theory
+            outcome.theory,
+            bar(outcome)
         );
-        let _ = writeln!(out, "{}", line.trim_end());
     }
     let estimate = &one.estimate;
     let _ = write!(
@@ -320,6 +320,19 @@ fn text(scene: &str, one: &Simulation) -> String {
         one.radiance()
     );
     out
+}
+
+/// The simulated probability as a bar, with a mark at the end of the bar that theory predicts.
+fn bar(outcome: &Outcome) -> String {
+    let [simulated, theory] =
+        [outcome.simulated, outcome.theory].map(|one| (one * BAR).round() as usize);
+    (0..simulated.max(theory + 1))
+        .map(|column| match column {
+            column if column == theory => '|',
+            column if column < simulated => '#',
+            _ => ' ',
+        })
+        .collect()
 }
 
 /// A positive number to four decimals, or in powers of ten.
@@ -367,4 +380,28 @@ fn mean_phase_text(scene: &str, one: &MeanPhaseSimulation) -> String {
         one.largest_difference()
     );
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_shows_what_is_simulated_and_where_theory_ends() {
+        for (simulated, theory, expected) in [
+            (0.25, 0.25, "########|"),
+            (0.25, 0.125, "####|###"),
+            (0.125, 0.25, "####    |"),
+            (0.0, 0.0, "|"),
+            (0.0, 0.0625, "  |"),
+            (1e-9, 1.0, "                                |"),
+        ] {
+            let outcome = Outcome {
+                y: 0,
+                simulated,
+                theory,
+            };
+            assert_eq!(bar(&outcome), expected);
+        }
+    }
 }

@@ -34,7 +34,7 @@ fn stats(rendered: &Rendered, clipped: u64) -> Value {
         "estimator": rendered.estimator.name(),
         "colour": rendered.colour.name(),
         "noise": { "depolarising": rendered.noise.depolarising, "readout": rendered.noise.readout },
-        "visibility": rendered.visibility.name(),
+        "visibility": rendered.primary_hits.method.name(),
         "search": search(rendered),
         "seed": rendered.seed,
         "width": width,
@@ -68,7 +68,7 @@ fn stats(rendered: &Rendered, clipped: u64) -> Value {
 
 /// Returns, for each number of strata, the number of channels of pixels that were counted in that many.
 fn strata_used(rendered: &Rendered) -> Value {
-    let used = rendered.strata_used().into_iter();
+    let used = rendered.counted.strata_used().into_iter();
     used.map(|(strata, channels)| (strata.to_string(), json!(channels)))
         .collect::<serde_json::Map<_, _>>()
         .into()
@@ -76,12 +76,12 @@ fn strata_used(rendered: &Rendered) -> Value {
 
 /// Returns the cost of the search for primary hits; null if there was none.
 fn search(rendered: &Rendered) -> Value {
-    let Some(searched) = rendered.searched else {
+    let Some(searched) = rendered.primary_hits.searched else {
         return Value::Null;
     };
     let root = libm::sqrt(searched.faces as f64);
     let mean = rendered.total_queries() as f64 / rendered.paths as f64;
-    let guess = match rendered.visibility {
+    let guess = match rendered.primary_hits.method {
         Visibility::Grover { guess, .. } => json!(guess.name()),
         Visibility::Classical | Visibility::Exhaustive => Value::Null,
     };

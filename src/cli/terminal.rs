@@ -58,7 +58,7 @@ pub(crate) fn note(text: &str) {
 }
 
 /// Prints a warning on standard error: valid input that is surely not meant.
-pub(crate) fn warn(report: &qrt_scene::syntax::Report) {
+pub(crate) fn warn(report: &qrt_syntax::Report) {
     let _ = io::stderr().write_all(report.render(colour()).as_bytes());
 }
 

@@ -17,6 +17,8 @@ const CRATES: &[&str] = &[
     "qrt-macros/src",
     "qrt-runtime/src",
     "qrt-scene/src",
+    "qrt-syntax/src",
+    "qrt-tracer/src",
     "src",
 ];
 

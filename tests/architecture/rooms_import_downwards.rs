@@ -8,9 +8,23 @@ use std::path::{Path, PathBuf};
 /// Crates, with the crates of this repository that each may use.
 const CRATES: &[(&str, &[&str])] = &[
     ("qrt-circuit", &[]),
-    ("qrt-scene", &["qrt-circuit"]),
-    ("qrt-core", &["qrt-circuit", "qrt-scene"]),
-    ("qrt-macros", &["qrt-circuit", "qrt-core", "qrt-scene"]),
+    ("qrt-syntax", &["qrt-circuit"]),
+    ("qrt-scene", &["qrt-circuit", "qrt-syntax"]),
+    ("qrt-tracer", &["qrt-scene", "qrt-syntax"]),
+    (
+        "qrt-core",
+        &["qrt-circuit", "qrt-scene", "qrt-syntax", "qrt-tracer"],
+    ),
+    (
+        "qrt-macros",
+        &[
+            "qrt-circuit",
+            "qrt-core",
+            "qrt-scene",
+            "qrt-syntax",
+            "qrt-tracer",
+        ],
+    ),
     ("drawing", &[]),
     ("qrt-machines", &["qrt-circuit"]),
     (
@@ -26,6 +40,8 @@ const CRATES: &[(&str, &[&str])] = &[
             "qrt-drawing",
             "qrt-machines",
             "qrt-scene",
+            "qrt-syntax",
+            "qrt-tracer",
         ],
     ),
     (
@@ -38,6 +54,8 @@ const CRATES: &[(&str, &[&str])] = &[
             "qrt-machines",
             "qrt-runtime",
             "qrt-scene",
+            "qrt-syntax",
+            "qrt-tracer",
         ],
     ),
     (
@@ -52,6 +70,8 @@ const CRATES: &[(&str, &[&str])] = &[
             "qrt-macros",
             "qrt-runtime",
             "qrt-scene",
+            "qrt-syntax",
+            "qrt-tracer",
         ],
     ),
     (
@@ -63,6 +83,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "qrt-lab",
             "qrt-runtime",
             "qrt-scene",
+            "qrt-syntax",
         ],
     ),
 ];
@@ -70,12 +91,58 @@ const CRATES: &[(&str, &[&str])] = &[
 /// Sources of a crate, and its modules, each above all those before it.
 const MODULES: &[(&str, &[&str])] = &[
     (
-        "qrt-scene/src",
+        "qrt-syntax/src",
         &[
-            "syntax", "expr", "polygons", "lights", "scene", "schema", "sampling", "valid", "front",
+            "line", "name", "number", "path", "tree", "called", "codes", "kinds", "problem",
+            "report", "expr",
         ],
     ),
-    ("qrt-core/src", &["tracer", "compile", "oracle", "inspect"]),
+    (
+        "qrt-scene/src",
+        &[
+            "polygons", "lights", "scene", "schema", "sampling", "valid", "front",
+        ],
+    ),
+    (
+        "qrt-tracer/src",
+        &[
+            "polygon",
+            "ball",
+            "radiance",
+            "sampled",
+            "arith",
+            "vector",
+            "math",
+            "geometry",
+            "ray",
+            "crossing",
+            "ball_ray",
+            "intersect",
+            "convex",
+            "compiled",
+            "places",
+            "refraction",
+            "sun",
+            "smooth",
+            "colours",
+            "sky",
+            "checker",
+            "camera",
+            "pixel_class",
+            "lamp_shapes",
+            "lights",
+            "bsdf",
+            "lighting",
+            "bound",
+            "stage",
+            "search",
+            "paper",
+            "face_table",
+            "frame",
+            "scalar",
+        ],
+    ),
+    ("qrt-core/src", &["compile", "oracle", "inspect"]),
     (
         "qrt-machines/src",
         &[
@@ -130,11 +197,13 @@ const MODULES: &[(&str, &[&str])] = &[
             "path_machines",
             "search",
             "models",
+            "counted_pixels",
             "checkpoint",
             "sample",
             "plan",
             "prepared",
             "render",
+            "traced_path",
             "predicates",
         ],
     ),

@@ -155,7 +155,7 @@ fn every_figure_is_shown_and_says_what_is_seen() {
 fn every_error_code_has_its_place() {
     let page = Page::load("error-codes.md").expect("there is a page of error codes");
     let mut failures = Vec::new();
-    for row in qrt::scene::syntax::codes::TABLE {
+    for row in qrt::syntax::codes::TABLE {
         let anchor = format!("<a id=\"{}\"></a>", row.code);
         let count = page.text.matches(&anchor).count();
         if count != 1 {
@@ -163,7 +163,7 @@ fn every_error_code_has_its_place() {
         }
     }
     let all = page.text.matches("<a id=\"QRT").count();
-    if all != qrt::scene::syntax::codes::TABLE.len() {
+    if all != qrt::syntax::codes::TABLE.len() {
         failures.push(format!("the page has {all} codes"));
     }
     report(&failures);

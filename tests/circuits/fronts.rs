@@ -8,12 +8,12 @@ use crate::common::scene::from_file;
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
 use qrt::core::oracle::{CallCost, Oracle, OracleOptions, Oracles, StrategyCost};
-use qrt::core::tracer::PixelClass;
 use qrt::lab::layouts;
 use qrt::runtime::path_machines::OracleMachine;
 use qrt::runtime::workers::Workers;
 use qrt::scene::front::parse;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::PixelClass;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -60,7 +60,7 @@ fn front(scene: &ValidScene, channel: usize) -> Vec<StrategyCost> {
         ..Workers::default()
     };
     let oracles = Oracles::new(scene);
-    let all = oracles.layouts(channel, PixelClass::default());
+    let all = oracles.layouts(oracles.name(channel, PixelClass::default()));
     let front = layouts::front(&all, &workers).unwrap();
     for layout in front.iter().step_by(7) {
         let auto = all.cheapest(layout.cost.qubits).unwrap();

@@ -132,6 +132,19 @@ fn of_smooth_meshes() {
 }
 
 #[test]
+fn of_coloured_meshes() {
+    let sets = [
+        "geometry[2].mesh.obj=../tests/good_scenes/coloured.obj",
+        "geometry[2].mesh.colors=vertices",
+    ];
+    agrees("scenes-yaml/knot.yaml", &sets);
+    agrees(
+        "scenes-yaml/knot.yaml",
+        &[sets[0], sets[1], "geometry[2].mesh.smooth=180"],
+    );
+}
+
+#[test]
 fn of_a_bsdf_of_ones_own() {
     agrees("scenes-yaml/velvet.yaml", &STOOLS);
 }

@@ -5,11 +5,11 @@ use super::rays::{Meeting, meetings};
 use crate::common::scene::{from_file, written};
 use qrt::circuit::lower;
 use qrt::core::oracle::NearestOracle;
-use qrt::core::tracer::{PixelClass, Stage};
 use qrt::counting::random::Stream;
 use qrt::runtime::path_machines::{Answers, Candidate, NearestMachine, NearestQuery};
 use qrt::runtime::search::marked_probability;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::{PixelClass, Stage};
 use std::sync::Arc;
 
 const SEED: u64 = 11;

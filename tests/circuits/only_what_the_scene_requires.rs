@@ -2,7 +2,7 @@
 
 use crate::common::scene::written;
 use qrt::circuit::{GateCircuit, Op, Program, lower};
-use qrt::core::compile::Passes;
+use qrt::core::compile::{Label, Passes, StageName};
 use qrt::core::oracle::{Oracle, OracleOptions};
 
 const ROOM: &str = "
@@ -130,6 +130,31 @@ fn no_glass_no_roots_and_no_refraction() {
         "dielectric: { ior: 1.5 }",
     );
     assert!(roots(&glass) > 0);
+}
+
+/// A search in a scene of spheres alone has no plane, and one in a scene of planes alone no sphere.
+#[test]
+fn spheres_pay_for_no_plane_and_planes_for_no_sphere() {
+    let balls = format!(
+        "{}geometry:\n  - sphere: {{ center: [0.5, 0.5, 0.5], radius: 0.2, material: white }}\n  \
+         - sphere: {{ center: [0.5, 0.9, 0.5], radius: 0.1, material: lamp }}\n{}",
+        &ROOM[..ROOM.find("geometry:").unwrap()],
+        &ROOM[ROOM.find("sampling:").unwrap()..]
+    );
+    let parts = |text: &str| {
+        let stages: Vec<StageName> = program(text)
+            .blocks
+            .iter()
+            .map(|block| Label::from_block(block).stage)
+            .collect();
+        let any = |is: fn(&StageName) -> bool| stages.iter().any(is);
+        [
+            any(|stage| matches!(stage, StageName::Plane(_))),
+            any(|stage| matches!(stage, StageName::Sphere(_))),
+        ]
+    };
+    assert_eq!(parts(ROOM), [true, false]);
+    assert_eq!(parts(&balls), [false, true]);
 }
 
 /// A table over the surfaces of a path multiplies its albedos.

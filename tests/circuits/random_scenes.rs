@@ -3,7 +3,7 @@
 
 use crate::common::numbers::Numbers;
 use qrt::lab::verify::{VerifyOptions, verify};
-use qrt::scene::front::parse;
+use qrt::scene::front::{Files, parse_with};
 use std::fmt::Write as _;
 
 /// Returns a scene that shows a few surfaces; coordinates are eighths, so that parallelograms are flat.
@@ -113,8 +113,49 @@ pub(super) fn scene(numbers: &mut Numbers) -> String {
     text
 }
 
-/// Checks up to `scenes` random scenes, skipping invalid ones, on one thread per core.
-fn check(scenes: usize, seed: u64) {
+/// Returns a scene without meshes.
+fn plain(numbers: &mut Numbers) -> (String, String) {
+    (scene(numbers), String::new())
+}
+
+/// Returns a scene as [`scene`] does, with a mesh of colours at its vertices, and the mesh as an OBJ file.
+fn coloured(numbers: &mut Numbers) -> (String, String) {
+    let eighths = |numbers: &mut Numbers| (numbers.below(25) as f64 - 12.0) / 8.0;
+    let corners = 4 + numbers.below(3);
+    let mut obj = String::new();
+    // Some vertices share a colour.
+    let palette = [(); 3].map(|()| [(); 3].map(|()| numbers.below(9) as f64 / 8.0));
+    for _ in 0..corners {
+        let [x, y, z] = [(); 3].map(|()| eighths(numbers));
+        let [r, g, b] = palette[numbers.below(3)];
+        let _ = writeln!(obj, "v {x} {y} {z} {r} {g} {b}");
+    }
+    for first in 1..corners - 1 {
+        let _ = writeln!(obj, "f {first} {} {}", first + 1, first + 2);
+    }
+    let material = [
+        "lambertian: { albedo: [0.9, 0.5, 0.7] }",
+        "mirror: { reflectance: [0.5, 0.7, 0.9] }",
+        "ggx: { reflectance: [0.9, 0.8, 0.7], alpha: 0.4 }",
+        "metal: { reflectance: [0.9, 0.8, 0.1] }",
+        "emitter: { radiance: 1, albedo: [0.9, 0.5, 0.7] }",
+    ][numbers.below(5)];
+    let smooth = ["auto", "0", "180"][numbers.below(3)];
+    let text = scene(numbers);
+    let text = text.replacen(
+        "materials:\n",
+        &format!("materials:\n  painted: {{ {material} }}\n"),
+        1,
+    );
+    let mesh = format!(
+        "geometry:\n  - mesh: {{ obj: any.obj, colors: vertices, smooth: {smooth}, material: painted }}\n"
+    );
+    (text.replacen("geometry:\n", &mesh, 1), obj)
+}
+
+/// Checks up to `scenes` scenes that `random` makes, skipping invalid ones, on one thread per core. A scene comes with
+/// the contents of its mesh `any.obj`.
+fn check(scenes: usize, seed: u64, random: impl Fn(&mut Numbers) -> (String, String) + Sync) {
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicUsize, Ordering};
     let next = AtomicUsize::new(0);
@@ -129,9 +170,11 @@ fn check(scenes: usize, seed: u64) {
                         break;
                     }
                     let mut numbers = Numbers(seed + number as u64);
-                    let text = scene(&mut numbers);
+                    let (text, obj) = random(&mut numbers);
+                    let files: [(&str, &[u8]); 1] = [("any.obj", obj.as_bytes())];
                     // Some scenes have surfaces without area: an error, and no panic.
-                    let Ok(loaded) = parse(&text, "random.yaml", &[], "".as_ref()) else {
+                    let loaded = parse_with(&text, "random.yaml", &[], Files::held(&files));
+                    let Ok(loaded) = loaded else {
                         continue;
                     };
                     let mut options = VerifyOptions {
@@ -141,8 +184,8 @@ fn check(scenes: usize, seed: u64) {
                     };
                     options.workers.threads = std::num::NonZeroUsize::new(1);
                     let report = verify(&loaded.valid, &options);
-                    let report = report.unwrap_or_else(|error| panic!("{error}\n{text}"));
-                    assert!(report.holds(), "{report:?}\n{text}");
+                    let report = report.unwrap_or_else(|error| panic!("{error}\n{text}\n{obj}"));
+                    assert!(report.holds(), "{report:?}\n{text}\n{obj}");
                     let mut found = found.lock().unwrap();
                     found.0 += 1;
                     found.1 += report.paths;
@@ -163,11 +206,17 @@ fn check(scenes: usize, seed: u64) {
 
 #[test]
 fn of_forty_scenes_all_models_agree() {
-    check(40, 0);
+    check(40, 0, plain);
+}
+
+#[test]
+fn of_forty_coloured_meshes_all_models_agree() {
+    check(40, 0, coloured);
 }
 
 #[test]
 #[ignore = "takes five minutes on two cores"]
 fn of_ten_thousand_scenes_all_models_agree() {
-    check(10_000, 1_000_000);
+    check(10_000, 1_000_000, plain);
+    check(2_000, 2_000_000, coloured);
 }

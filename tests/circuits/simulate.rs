@@ -96,10 +96,31 @@ fn fits(name: &str, sets: &[&str], most: u32) -> f64 {
     amplitudes[0]
 }
 
+/// The most qubits of a complete counting circuit of `shadow`, over all pixels and channels.
+const SHADOW: u32 = 470;
+
+#[test]
+fn the_circuits_of_the_shadow_have_the_qubits_that_it_says() {
+    let scene = small("shadow", &[]);
+    let counting = scene.scene().counting;
+    let (bits, window) = (counting.phase_bits, counting.register_window());
+    let oracles = Oracles::new(&scene);
+    let places = (0..64).map(|place| [place % 8, place / 8]);
+    let qubits = |place| {
+        let pixel = OraclePixel { place, seed: 0 };
+        let qubits = [0, 1, 2].map(|channel| {
+            let inspection = Inspection::of_pixel(&oracles, Some(channel), pixel).unwrap();
+            inspection.complete_qubits(bits, window)
+        });
+        qubits.into_iter().max()
+    };
+    assert_eq!(places.filter_map(qubits).max(), Some(SHADOW));
+}
+
 /// The file's first comment names the qubits.
 #[test]
 fn the_first_comment_of_a_small_scene_has_its_qubits() {
-    for (name, most) in SMALL {
+    for (name, most) in SMALL.into_iter().chain([("shadow", SHADOW)]) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("scenes-yaml/small")
             .join(format!("{name}.yaml"));

@@ -7,9 +7,9 @@ use crate::common::scene::{from_file, written};
 use qrt::circuit::{Gate, lower};
 use qrt::core::compile::Strategy;
 use qrt::core::oracle::{CallCost, Oracle, OracleOptions, Oracles, StrategyCost, call_cost};
-use qrt::core::tracer::PixelClass;
 use qrt::runtime::path_machines::OracleMachine;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::PixelClass;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -47,14 +47,15 @@ fn every_strategy_computes_the_same() {
     agree(&written(CORNER, &[]), &some);
 }
 
-/// In these scenes the oracles of all pixels, and of one alone, have few enough operations for an exact answer.
+/// In these scenes the oracles of all pixels, and of one alone, have few enough operations for an exact answer. The
+/// former load the pixel's position, and add to it in place.
 #[test]
 fn pebbled_circuits_have_the_fewest_qubits_of_all() {
     for (name, fewest) in [
-        ("edge", [19, 15]),
-        ("lit-wall", [27, 11]),
-        ("mirror", [23, 15]),
-        ("slanted", [23, 18]),
+        ("edge", [16, 15]),
+        ("lit-wall", [25, 11]),
+        ("mirror", [21, 15]),
+        ("slanted", [18, 18]),
     ] {
         let scene = from_file(&format!("scenes-yaml/small/{name}.yaml"), &[]);
         assert_eq!(
@@ -64,8 +65,9 @@ fn pebbled_circuits_have_the_fewest_qubits_of_all() {
         agree(&scene, &[Strategy::PEBBLED]);
         let oracles = Oracles::new(&scene);
         let class = oracles.classes().class([1, 0]);
-        let (film, pixel) = (oracles.layouts(0, class), oracles.of_pixel([1, 0]));
-        for (layouts, fewest) in [film, pixel.layouts(0, class)].iter().zip(fewest) {
+        let (film, pixel) = (oracles.name(0, class), oracles.of_pixel([1, 0]));
+        let both = [oracles.layouts(film), pixel.layouts(pixel.name(0, class))];
+        for (layouts, fewest) in both.iter().zip(fewest) {
             let qubits = |strategy| layouts.call(strategy).unwrap().qubits;
             let all = Strategy::all().into_iter().map(qubits).min();
             assert_eq!(
@@ -89,7 +91,7 @@ fn so_do_those_of_auto_in_an_example_scene() {
     ];
     let scene = from_file("scenes-yaml/lit-box.yaml", &small);
     let oracles = Oracles::new(&scene);
-    let all = oracles.layouts(0, PixelClass::default());
+    let all = oracles.layouts(oracles.name(0, PixelClass::default()));
     let keep = all.under(Strategy::KEEP).unwrap().cost.qubits;
     let strategies = (1..7).map(|half| all.cheapest(keep >> half).unwrap());
     let strategies: Vec<Strategy> = strategies.collect();
@@ -110,7 +112,7 @@ fn auto_is_the_cheapest_that_fits() {
     let oracles = Oracles::new(&scene);
     let (name, keep) = StrategyCost::of_most_expensive(&oracles, Strategy::KEEP).unwrap();
     let channel = name.channel;
-    let all = oracles.layouts(channel, PixelClass::default());
+    let all = oracles.layouts(oracles.name(channel, PixelClass::default()));
     let calls = Strategy::all()
         .into_iter()
         .map(|strategy| (all.call(strategy).unwrap(), strategy));
@@ -149,6 +151,69 @@ fn auto_is_the_cheapest_that_fits() {
         OracleOptions::default().strategy(&scene),
         Ok(Strategy::KEEP)
     );
+}
+
+/// Two rays, of which the second rises by a constant and leans by a table: whether a plane is ahead of the ray,
+/// and at which distance, are tables. It took 302 Toffolis on 255 qubits when both were divisions.
+#[test]
+fn distances_of_tabulated_directions_are_tables() {
+    let text = "
+name: tiny
+camera: { orthographic: { eye: [0, 0, 0.9], target: [0, 0, 0], up: [0, 1, 0], height: 1 } }
+film: { width: 1, height: 1 }
+materials:
+  wall: { lambertian: { albedo: [0.5, 0.5, 0.5] } }
+  lamp: { emitter: { radiance: [1, 1, 1] } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], material: wall }
+  - quad: { vertices: [[0, -1, 1], [0, 1, 1], [1, 1, 1], [1, -1, 1]], material: lamp }
+sampling: { path_bits: 4, depths: [{ bits: [2, 2] }, { bits: [2, 2] }], lights: none }
+precision: { fraction: 4 }
+comparator: { bits: 1 }
+";
+    for (sets, most) in [
+        (&[][..], [100, 120]),
+        (
+            &["sampling.depths=[{ bits: [0, 0] }, { bits: [2, 2] }]"],
+            [68, 80],
+        ),
+    ] {
+        let scene = written(text, sets);
+        let costs = [0, 1, 2].map(|channel| {
+            let oracle = Oracle::new(&scene, channel, OracleOptions::default()).unwrap();
+            call_cost(&[oracle])
+        });
+        for cost in costs {
+            assert!(
+                cost.toffoli <= most[0] && cost.qubits <= most[1],
+                "{cost:?}"
+            );
+        }
+        agree(&scene, &[Strategy::KEEP, Strategy::SCOPED]);
+    }
+}
+
+/// The rows of the front of the box that the book shows: qubits, and the fewest Toffolis within them.
+#[test]
+fn the_front_of_the_box_is_that_of_the_book() {
+    let scene = from_file("scenes-yaml/cornell-box.yaml", &[]);
+    let oracles = Oracles::new(&scene);
+    let all = oracles.layouts(oracles.most_expensive().unwrap().name);
+    for (qubits, toffoli) in [
+        (39_010, 69_124),
+        (19_510, 107_118),
+        (9_302, 130_324),
+        (4_930, 183_100),
+        (2_426, 290_084),
+        (1_686, 365_460),
+        (1_023, 804_804),
+        (786, 1_292_212),
+        (527, 2_179_462),
+        (492, 2_652_392),
+    ] {
+        let cost = all.under(all.cheapest(qubits).unwrap()).unwrap().cost;
+        assert_eq!((cost.qubits, cost.toffoli), (qubits, toffoli));
+    }
 }
 
 /// Runs the box as it is, on fewer qubits than the rays and hits of a path alone had under `keep`: two

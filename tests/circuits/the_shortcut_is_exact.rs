@@ -109,7 +109,7 @@ fn is_exact(sets: &[&str]) {
         };
         let picture = render(&scene, &options).unwrap();
         assert_eq!(picture.ids, ids);
-        let counted = picture.good.unwrap();
+        let counted = picture.good().unwrap();
         for ([x, y], expected) in pixels.iter().zip(&good) {
             assert_eq!(counted[(y * 4 + x) as usize], *expected);
         }

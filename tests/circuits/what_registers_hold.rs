@@ -6,8 +6,8 @@ use crate::common::scene::written;
 use qrt::core::oracle::{Oracle, OracleOptions};
 use qrt::runtime::render::{self, Model};
 use qrt::scene::Estimator;
-use qrt::scene::syntax::Problem;
 use qrt::scene::valid::ValidScene;
+use qrt::syntax::Problem;
 
 /// Returns a scene with the value `value` of a BSDF.
 fn text(value: &str) -> String {

@@ -269,6 +269,51 @@ geometry:
 sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
 ";
 
+/// A ball over tiles under an even sky, through a lens.
+const BALL: &str = "
+name: ball
+camera: { perspective: { eye: [0, 1, 4], target: [0, 0.5, 0], vfov: 40, lens: { aperture: 0.2, focus: 3.5 } } }
+film: { width: 4, height: 2 }
+sky: { radiance: [1, 2, 3] }
+materials:
+  red: { lambertian: { albedo: [0.5, 0.25, 0.125] } }
+  tiles: { lambertian: { albedo: { checker: { of: [0.75, 0.25], scale: 0.5 } } } }
+geometry:
+  - sphere: { center: [0, 0.5, -1], radius: 0.5, material: red }
+  - quad: { vertices: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: tiles }
+sampling: { path_bits: 4, depths: [{ bits: [4, 4] }, { bits: [4, 4] }] }
+";
+
+#[test]
+fn spheres_lenses_skies_and_tiles_are_mitsubas_own() {
+    let folder = Folder::with("ball.yaml", BALL);
+    folder.works(&["export", "ball.yaml", "--format", "mitsuba"]);
+    let text = String::from_utf8(folder.read("ball.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let typed = |tag: &str, kind: &str| {
+        let mut nodes = xml.descendants();
+        nodes
+            .find(|node| node.has_tag_name(tag) && node.attribute("type") == Some(kind))
+            .unwrap()
+    };
+    let value = |node: roxmltree::Node<'_, '_>, name: &str| {
+        let mut parts = node.descendants();
+        let part = parts.find(|part| part.attribute("name") == Some(name));
+        part.and_then(|part| part.attribute("value").map(str::to_owned))
+    };
+    let read = |tag, kind, name| value(typed(tag, kind), name).unwrap();
+    // qrt names the diameter of a lens, Mitsuba its radius.
+    assert_eq!(read("sensor", "thinlens", "aperture_radius"), "0.1");
+    assert_eq!(read("sensor", "thinlens", "focus_distance"), "3.5");
+    assert_eq!(read("shape", "sphere", "center"), "0, 0.5, -1");
+    assert_eq!(read("shape", "sphere", "radius"), "0.5");
+    assert_eq!(read("shape", "sphere", "reflectance"), "0.5, 0.25, 0.125");
+    assert_eq!(read("emitter", "constant", "radiance"), "1, 2, 3");
+    let mut colours = ["color0", "color1"].map(|name| read("texture", "checkerboard", name));
+    colours.sort();
+    assert_eq!(colours, ["0.25, 0.25, 0.25", "0.75, 0.75, 0.75"]);
+}
+
 /// A sun is a far disc that faces the scene. It has the sun's angle, the radiance of the sun and of the sky behind it,
 /// and is within the far end of the camera's view.
 #[test]
@@ -349,6 +394,68 @@ fn discs_are_discs_for_mitsuba() {
     let errors = folder.fails(2, &["export", "discs.yaml", "--format", "mitsuba"]);
     let refusal = "no counterpart of the `checker` of `glass`";
     assert!(errors.contains(refusal), "{errors}");
+}
+
+/// The vertices of a coloured mesh have the albedo times their colours. Other faces of the material have its albedo,
+/// in the same file, and other materials have no colours.
+#[test]
+fn colours_of_vertices_are_an_attribute_for_mitsuba() {
+    let text = "
+name: painted
+camera: { orthographic: { eye: [0, 0, 4], target: [0, 0, 0], height: 2 } }
+film: { width: 4, height: 2 }
+materials:
+  wall: { lambertian: { albedo: [0.5, 1, 0.25] } }
+  lamp: { emitter: { radiance: 1 } }
+geometry:
+  - mesh: { obj: painted.obj, colors: vertices, material: wall }
+  - triangle: { vertices: [[0, 0, 1], [1, 0, 1], [0, 1, 1]], material: wall }
+  - triangle: { vertices: [[0, 0, 3], [0, 1, 3], [1, 0, 3]], material: lamp }
+";
+    let folder = Folder::with("painted.yaml", text);
+    let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0.5\nv 0 1 0 0.25 0.75 1\nf 1 2 3\n";
+    fs::write(folder.path("painted.obj"), obj).unwrap();
+    folder.works(&["export", "painted.yaml", "--format", "mitsuba"]);
+    let text = String::from_utf8(folder.read("painted.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let textures = xml
+        .descendants()
+        .filter(|node| node.has_tag_name("texture"));
+    let textures: Vec<_> = textures.collect();
+    let [texture] = &textures[..] else {
+        panic!("{text}");
+    };
+    assert_eq!(texture.attribute("type"), Some("mesh_attribute"));
+    assert_eq!(texture.attribute("name"), Some("reflectance"));
+    let name = texture
+        .descendants()
+        .find(|node| node.has_tag_name("string"));
+    assert_eq!(name.unwrap().attribute("value"), Some("vertex_color"));
+    let bytes = folder.read("painted.1.wall.ply");
+    let head = b"property double z\nproperty double r\nproperty double g\nproperty double b\n";
+    assert!(bytes.windows(head.len()).any(|part| part == head));
+    let end = b"end_header\n";
+    let start = bytes
+        .windows(end.len())
+        .position(|part| part == end)
+        .unwrap()
+        + end.len();
+    let numbers = bytes[start..]
+        .chunks_exact(8)
+        .map(|b| f64::from_le_bytes(b.try_into().unwrap()));
+    let numbers: Vec<f64> = numbers.take(6 * 6).collect();
+    let colours: Vec<&[f64]> = numbers.chunks(6).map(|vertex| &vertex[3..]).collect();
+    let expected = [
+        [0.5, 0.0, 0.0],
+        [0.0, 1.0, 0.125],
+        [0.125, 0.75, 0.25],
+        [0.5, 1.0, 0.25],
+        [0.5, 1.0, 0.25],
+        [0.5, 1.0, 0.25],
+    ];
+    assert_eq!(colours, expected);
+    let lamp = folder.read("painted.2.lamp.ply");
+    assert!(!lamp.windows(9).any(|part| part == b"double r\n"));
 }
 
 #[test]

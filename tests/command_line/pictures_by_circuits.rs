@@ -84,7 +84,7 @@ fn threads_tiles_and_interruptions_change_no_byte() {
 }
 
 /// Returns the width and height of a PNG, and its 8-bit sRGB.
-fn decoded(bytes: Vec<u8>) -> ([u32; 2], Vec<u8>) {
+pub(super) fn decoded(bytes: Vec<u8>) -> ([u32; 2], Vec<u8>) {
     let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -141,4 +141,24 @@ fn the_gallery_is_as_the_readme_says() {
         &whole[first..first + 3 * width as usize]
     });
     assert_eq!(part, rows.collect::<Vec<_>>().concat());
+}
+
+/// The README's picture of the shadow is that of complete counting circuits, each pixel 32 x 32 times.
+#[test]
+#[ignore = "takes a minute"]
+fn the_gallerys_shadow_is_what_the_circuits_count() {
+    let folder = Folder::new();
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scene = root.join("scenes-yaml/small/shadow.yaml");
+    folder.works(&["simulate", scene.to_str().unwrap(), "--film", "shadow.png"]);
+    let (size, small) = decoded(folder.read("shadow.png"));
+    assert_eq!(size, [8, 8]);
+    let shown = std::fs::read(root.join("docs/gallery/shadow-simulated.png")).unwrap();
+    let (size, shown) = decoded(shown);
+    assert_eq!(size, [256, 256]);
+    for (place, pixel) in shown.chunks(3).enumerate() {
+        let [x, y] = [place % 256 / 32, place / 256 / 32];
+        let first = 3 * (8 * y + x);
+        assert_eq!(pixel, &small[first..first + 3], "pixel {x},{y}");
+    }
 }

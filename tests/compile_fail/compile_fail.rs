@@ -6,7 +6,7 @@
 
 mod helps;
 
-use qrt::scene::syntax::codes;
+use qrt::syntax::codes;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -67,6 +67,96 @@ const OF_THE_LANGUAGE: [&str; 5] = [
     "predicate_changes_the_path",
     "predicate_register_of_another_width",
 ];
+
+/// Names of the generated code and of qrt's sources, and the compiler's words of a bound in them.
+const FOREIGN: [&str; 14] = [
+    "required by",
+    "required for",
+    "::qrt::",
+    "Handed",
+    "Caller",
+    "Recorded",
+    "Recorder",
+    "Reversible<",
+    "HostRef",
+    "Undetermined",
+    "Itself",
+    "$crate",
+    "$WORKSPACE",
+    "the trait `",
+];
+
+/// Programs whose messages show such names, and why.
+const SHOW_FOREIGN_NAMES: [(&str, &str); 8] = [
+    (
+        "compiled_field_of_another_scene",
+        "the author calls a method with a bound, and the compiler names the bound",
+    ),
+    ("compiled_register_is_changed", TYPE_OF_A_REGISTER),
+    ("compiled_register_leaves_within", TYPE_OF_A_REGISTER),
+    ("predicate_changes_the_path", TYPE_OF_A_REGISTER),
+    (
+        "predicate_of_no_scene",
+        "the trait is one of the prelude, and the compiler names it",
+    ),
+    ("predicate_register_of_another_width", TYPE_OF_A_REGISTER),
+    (
+        "reversible_argument_in_an_authors_macro",
+        "the function's path is unknown there, so each of its functions has all calls, and one type is named",
+    ),
+    (
+        "reversible_computed_width_for_a_constant",
+        "a register whose width is computed has any format, as its parameter's type says",
+    ),
+];
+
+/// The reason where the language refuses a call in plain Rust by its arguments' types.
+const TYPE_OF_A_REGISTER: &str = "the compiler shows the type of a register, which is documented";
+
+#[test]
+fn messages_show_names_of_the_author_alone() {
+    // The compiler's drawings have underscores, too.
+    let is_generated = |rest: &str| rest.starts_with(char::is_alphabetic);
+    let names = |text: &str| {
+        FOREIGN.iter().any(|name| text.contains(name)) || text.split("__").skip(1).any(is_generated)
+    };
+    let mut shown: Vec<String> = messages()
+        .filter_map(|(program, text)| names(&text).then_some(program))
+        .collect();
+    shown.sort();
+    assert_eq!(shown, SHOW_FOREIGN_NAMES.map(|(program, _)| program));
+}
+
+/// Programs that the compiler refuses beside the macro, for one cause, and why.
+const REFUSED_TWICE: [(&str, &str); 1] = [(
+    "reversible_does_not_parse",
+    "the compiler reads a function before its attribute does, repairs what it cannot read, and does not say so",
+)];
+
+#[test]
+fn the_compiler_adds_nothing_to_an_error_of_the_macros() {
+    let is_own = |error: &str| error.contains("[QRT");
+    let twice = |text: &str| {
+        let errors = format!("\n{text}");
+        let own: Vec<bool> = errors.split("\nerror").skip(1).map(is_own).collect();
+        own.contains(&true) && own.contains(&false)
+    };
+    let mut refused: Vec<String> = messages()
+        .filter_map(|(program, text)| twice(&text).then_some(program))
+        .collect();
+    refused.sort();
+    assert_eq!(refused, REFUSED_TWICE.map(|(program, _)| program));
+}
+
+/// Returns the names of all programs, with the compiler's messages.
+fn messages() -> impl Iterator<Item = (String, String)> {
+    std::fs::read_dir("ui").unwrap().filter_map(|entry| {
+        let path = entry.unwrap().path();
+        let is_message = path.extension().is_some_and(|end| end == "stderr");
+        let program = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        is_message.then(|| (program, std::fs::read_to_string(&path).unwrap()))
+    })
+}
 
 #[test]
 fn every_error_has_a_help_line() {

@@ -44,6 +44,10 @@ pub(super) const APPLIED: &[Applied] = &[
     ("apply_alone", &[("apply! {", "within! {} apply! {")]),
     ("argument_by_value", &[("add(a,", "add(&a,")]),
     (
+        "argument_in_an_authors_macro",
+        &[("wrong(a: &UInt<8>", "wrong(a: &UInt<4>")],
+    ),
+    (
         "argument_is_a_number",
         &[(
             "    add(1, &mut b);",
@@ -173,6 +177,13 @@ pub(super) const APPLIED: &[Applied] = &[
     (
         "condition_is_constant",
         &[("    if true {\n        a += 2;\n    }", "    a += 2;")],
+    ),
+    (
+        "condition_on_its_target",
+        &[
+            ("a: &mut UInt<4>", "a: &mut UInt<4>, flag: &mut Bool"),
+            ("if a > 3 {", "flag ^= a > 3; if flag {"),
+        ],
     ),
     ("const_function", &[("const fn", "fn")]),
     ("constant_is_a_text", &[("\"3\"", "3")]),

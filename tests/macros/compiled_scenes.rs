@@ -9,10 +9,10 @@
 use qrt::circuit::{Declaration, Type};
 use qrt::core::inspect::Inspection;
 use qrt::core::oracle::{Oracle, OracleOptions, Oracles};
-use qrt::core::tracer::PixelClass;
 use qrt::prelude::*;
 use qrt::runtime::path_machines::{Finished, OracleMachine};
 use qrt::runtime::render::{Colour, Visibility};
+use qrt::tracer::PixelClass;
 use std::sync::Arc;
 
 qrt! {
@@ -25,6 +25,8 @@ qrt! {
     scene Lattice from "tests/scenes/lattice.yaml"
     scene Ring from "tests/scenes/ring.yaml"
     scene Lit from "tests/scenes/lit.yaml"
+    /// A scene whose circuit computes a sum in place.
+    scene Slanted from "scenes-yaml/small/slanted.yaml"
 
     /// The scene that `Lit` reads from its file.
     scene LitTwin {
@@ -212,6 +214,7 @@ scenes! {
     of_a_circuit_of_few_qubits: Few at [3, 4];
     of_the_product_lattice: Lattice at [3, 4];
     of_sampled_lamps: Lit at [3, 4];
+    of_sums_in_place: Slanted at [1, 0];
     of_wide_numbers_and_long_ids: Field at [2, 1];
     of_nothing: Dark at [0, 0];
     of_a_lamp_alone: r#type at [1, 1];
@@ -350,7 +353,7 @@ fn a_scene_and_its_twin_are_one() {
         render_compiled::<Floor>(&options).unwrap(),
     ];
     assert_eq!(twin.image.pixels, floor.image.pixels);
-    assert_eq!(twin.good, floor.good);
+    assert_eq!(twin.good(), floor.good());
 }
 
 #[test]
@@ -365,7 +368,7 @@ fn pictures_are_those_of_the_scene() {
         let compiled = render_compiled::<Floor>(&floor).unwrap();
         let built = render(Floor::scene(), &floor).unwrap();
         assert_eq!(compiled.image.pixels, built.image.pixels);
-        assert_eq!(compiled.good, built.good);
+        assert_eq!(compiled.good(), built.good());
         // For pixels with sampled lamps, only one class is compiled: colours are the same, at another scale.
         let lit = RenderOptions {
             estimator: Some(Estimator::Exact),

@@ -28,6 +28,7 @@ qrt! {
         }
         quad lamp: "warm lamp" { (-1, 3, -1), (1, 3, -1), (1, 3, 1), (-1, 3, 1) },
         mesh knot: cloth { obj: "scenes-yaml/meshes/knot.obj", smooth: 40, translate: (0, 0.5, 0) },
+        mesh: grey { obj: "tests/good_scenes/coloured.obj", colors: vertices, scale: 0.25, translate: (-1, 0.25, 1) },
         sampling { path_bits: 6, lights: none },
         depth primary { bits: (6, 6) },
         depth secondary { bits: (6, 6), map: cosine_hemisphere },
@@ -54,6 +55,7 @@ geometry:
   - quad: { vertices: [[0, 0, 2], [2, 0, 2], [2, 0, -2], [0, 0, -2]], material: grey }
   - quad: { vertices: [[-1, 3, -1], [1, 3, -1], [1, 3, 1], [-1, 3, 1]], material: warm lamp }
   - mesh: { obj: scenes-yaml/meshes/knot.obj, material: cloth, smooth: 40, translate: [0, 0.5, 0] }
+  - mesh: { obj: tests/good_scenes/coloured.obj, material: grey, colors: vertices, scale: 0.25, translate: [-1, 0.25, 1] }
 sampling: { path_bits: 6, depths: [{ bits: [6, 6] }, { bits: [6, 6], map: cosine-hemisphere }], lights: none }
 precision: { fraction: 14 }
 comparator: { bits: 8 }

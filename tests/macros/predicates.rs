@@ -7,8 +7,9 @@ use qrt::core::oracle::paths::{PathFormats, PathNumber, RayNumber};
 use qrt::counting::PhaseDistribution;
 use qrt::machines::statevector::counting_of;
 use qrt::prelude::*;
-use qrt::runtime::predicates::{PredicateCount, PredicateRefusal, TracedPath};
+use qrt::runtime::predicates::{PredicateCount, PredicateRefusal};
 use qrt::runtime::render::{Colour, Visibility};
+use qrt::runtime::traced_path::TracedPath;
 use qrt::scene::Window;
 
 qrt! {
@@ -404,7 +405,7 @@ fn the_light_of_all_paths_is_the_picture_and_its_parts_add_up() {
         let [all, by_mirror, otherwise] = pictures(model);
         let whole = render(Corner::scene(), &at(model, None)).unwrap();
         assert_eq!(all.image.pixels, whole.image.pixels);
-        assert_eq!(all.good, whole.good);
+        assert_eq!(all.good(), whole.good());
         let parts = by_mirror.image.pixels.iter().zip(&otherwise.image.pixels);
         let mut mirrored = 0.0;
         for ((a, b), whole) in parts.zip(&whole.image.pixels) {

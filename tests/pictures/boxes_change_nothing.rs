@@ -1,9 +1,9 @@
 //! Tests that the hierarchy of boxes finds exactly the hits of a loop over all faces: the same bytes.
 
 use crate::common::scene::{from_file, written};
-use qrt::core::tracer::{NO_PLANE, Start};
 use qrt::runtime::path_machines::{Real, Simd, SingleRay};
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::{NO_PLANE, Start};
 use std::fmt::Write as _;
 
 const KNOT: &str = "scenes-yaml/knot.yaml";

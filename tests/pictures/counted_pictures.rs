@@ -52,7 +52,7 @@ fn counted_pixels_keep_the_bound_in_the_promised_share() {
             let least = promise - 3.0 * (promise * (1.0 - promise) / 256.0).sqrt();
             assert!(share >= least, "{estimator}, channel {channel}: {share}");
         }
-        assert_eq!(rendered.queries, vec![3 * 255; 256]);
+        assert_eq!(rendered.counted.queries, vec![3 * 255; 256]);
     }
 }
 
@@ -148,7 +148,7 @@ fn a_single_pixel_of_a_single_path_is_that_path() {
         assert!((value - colour).abs() < 1e-14);
     }
     let counted = render(&scene, &with(Estimator::Paper, 0)).unwrap();
-    assert_eq!(counted.queries, [3 * 255]);
+    assert_eq!(counted.counted.queries, [3 * 255]);
 }
 
 #[test]

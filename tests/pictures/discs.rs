@@ -2,11 +2,11 @@
 
 use super::spheres::seen;
 use crate::common::scene::written;
-use qrt::core::tracer::{PixelClass, Stage};
 use qrt::lab::verify::{VerifyOptions, verify};
 use qrt::prelude::*;
 use qrt::runtime::render::Visibility;
 use qrt::runtime::search::Guess;
+use qrt::tracer::{PixelClass, Stage};
 use std::f64::consts::PI;
 
 /// The radiance of the lamp, by channel.

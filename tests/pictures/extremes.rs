@@ -5,6 +5,7 @@
 
 mod counts;
 mod rooms;
+mod spheres;
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -37,7 +38,10 @@ fn the_table_is_what_was_measured() {
         what,
         must,
         measured,
-    } in counts::all().into_iter().chain(rooms::all())
+    } in counts::all()
+        .into_iter()
+        .chain(rooms::all())
+        .chain(spheres::all())
     {
         writeln!(table, "| {what} | {must} | {measured} |").unwrap();
     }

@@ -2,13 +2,13 @@
 
 use super::independent::{mean, rms_difference, traced};
 use crate::common::scene::{from_file, written};
-use qrt::core::tracer::{PixelClass, PixelClasses};
 use qrt::counting::random::Stream;
 use qrt::prelude::{Estimator, Model, RenderOptions, render};
 use qrt::runtime::path_machines::Real;
 use qrt::scene::front::{Files, parse_with};
-use qrt::scene::syntax::Problem;
 use qrt::scene::valid::ValidScene;
+use qrt::syntax::Problem;
+use qrt::tracer::{PixelClass, PixelClasses};
 use std::fmt::Write as _;
 
 /// Returns a floor below a camera, the objects above it, and a material of the floor.
@@ -176,7 +176,7 @@ fn noise_is_that_of_any_picture() {
     assert_eq!(fixed.image, gates.image);
     let quiet = of(Model::Fixed, "depolarising=0,readout=0");
     let differ = |a: &[[f64; 3]], b: &[[f64; 3]]| a.iter().zip(b).filter(|(a, b)| a != b).count();
-    assert_eq!(fixed.good, quiet.good);
+    assert_eq!(fixed.good(), quiet.good());
     assert!(differ(&fixed.image.pixels, &quiet.image.pixels) > 0);
     // Misreading a bit that is worth half of the range is rare.
     let [mean, expected] = [&fixed, &quiet].map(|picture| picture.mean()[0]);

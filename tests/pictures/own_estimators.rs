@@ -71,8 +71,8 @@ fn one_that_wraps_a_known_one_renders_its_picture() {
                 bytes
             };
             assert_eq!(bytes(&own), bytes(&known));
-            assert_eq!(own.queries, known.queries);
-            assert_eq!(own.widths, known.widths);
+            assert_eq!(own.counted.queries, known.counted.queries);
+            assert_eq!(own.counted.widths, known.counted.widths);
             assert_eq!(known.own_estimator, None);
             assert_eq!(own.own_estimator.as_deref(), Some("mine"));
             assert_eq!(known.metadata().unwrap().get("estimator"), Some("sine"));

@@ -83,30 +83,35 @@ fn agrees_by_lamps(name: &str, promise: f64) {
 
 fn agrees_with(name: &str, path_bits: u32, promise: f64, asking: impl Fn(usize) -> Vec<String>) {
     for depth in 1..=4 {
-        let scene = independent::scene(name, &asking(depth));
-        let reference = independent::reference(name, depth);
-        let level = mean(&reference.picture);
-        let ours = measure(&scene);
-        if level == 0.0 {
-            assert!(
-                ours.picture.iter().all(|p| *p == [0.0; 3]),
-                "{name} D={depth}"
-            );
-            continue;
-        }
-        if let Err(figures) = compare(&ours, &reference) {
-            panic!("{name} D={depth}: {figures}");
-        }
-        // A net is never worse than random paths, whose error grows by sqrt(2) per bit less.
-        let fewer = f64::from(18 - (path_bits + 1));
-        let most = promise * (0.5 * fewer).exp2() * level;
-        assert!(
-            ours.error <= most,
-            "{name} D={depth}: own error {} exceeds {}",
-            ours.error / level,
-            most / level
-        );
+        agrees_at(name, depth, path_bits, promise, &asking(depth));
     }
+}
+
+/// Checks the scene at one depth.
+fn agrees_at(name: &str, depth: usize, path_bits: u32, promise: f64, asking: &[String]) {
+    let scene = independent::scene(name, asking);
+    let reference = independent::reference(name, depth);
+    let level = mean(&reference.picture);
+    let ours = measure(&scene);
+    if level == 0.0 {
+        assert!(
+            ours.picture.iter().all(|p| *p == [0.0; 3]),
+            "{name} D={depth}"
+        );
+        return;
+    }
+    if let Err(figures) = compare(&ours, &reference) {
+        panic!("{name} D={depth}: {figures}");
+    }
+    // A net is never worse than random paths, whose error grows by sqrt(2) per bit less.
+    let fewer = f64::from(18 - (path_bits + 1));
+    let most = promise * (0.5 * fewer).exp2() * level;
+    assert!(
+        ours.error <= most,
+        "{name} D={depth}: own error {} exceeds {}",
+        ours.error / level,
+        most / level
+    );
 }
 
 #[test]
@@ -188,6 +193,12 @@ fn checkers_agree() {
 }
 
 #[test]
+fn colours_of_vertices_agree() {
+    agrees("painted", 14, 0.02);
+    agrees_by_lamps("painted", 0.05);
+}
+
+#[test]
 fn spheres_through_a_lens_agree() {
     agrees("lensed", 14, 0.01);
 }
@@ -210,6 +221,18 @@ fn discs_agree() {
 fn a_sun_agrees() {
     agrees("sun", 15, 0.2);
     agrees_by_lamps("sun", 0.1);
+}
+
+/// All parts of scenes at once: a sky, a sun, a lens, tiles, a disc, boxes, spheres of coloured glass, satin, clay and
+/// chrome, and up to six rays on a path.
+#[test]
+fn a_terrace_agrees() {
+    for depth in 1..=6 {
+        for lights in ["auto", "mis"] {
+            let asking = independent::asking(depth, 13, lights);
+            agrees_at("terrace", depth, 13, 0.1, &asking);
+        }
+    }
 }
 
 /// Smooth meshes of glass, metal and clay in a room. Its file and materials have the form that Blender's

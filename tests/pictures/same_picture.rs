@@ -18,7 +18,7 @@ fn scene(sets: &[&str]) -> ValidScene {
 fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>) {
     let pixels = rendered.image.pixels.iter();
     let pixels = pixels.map(|pixel| pixel.map(f64::to_bits)).collect();
-    (pixels, rendered.queries.clone())
+    (pixels, rendered.counted.queries.clone())
 }
 
 fn with(estimator: Estimator) -> RenderOptions<'static> {
@@ -228,7 +228,7 @@ fn interrupted_and_resumed_or_not() {
             assert!(second >= first, "{first} pixels, then {second}");
             let last = render(&scene, &RenderOptions { tile: None, ..two }).unwrap();
             // Unfinished pixels have some more paths.
-            let finished = second * (last.paths / last.queries.len() as u64);
+            let finished = second * (last.paths / last.counted.queries.len() as u64);
             assert!(last.resumed_paths >= finished);
             assert_eq!(bits(&last), expected);
         }

@@ -40,16 +40,25 @@ fn a_search_that_does_not_fail_finds_the_tracers_picture() {
     let blocks = from_file("tests/scenes/blocks.yaml", &[]);
     let traced = render(&blocks, &options(Model::Fixed, Visibility::Classical)).unwrap();
     assert!(traced.mean().iter().all(|&channel| channel > 0.1));
-    assert_eq!((traced.total_queries(), traced.searched), (0, None));
+    assert_eq!(
+        (traced.total_queries(), traced.primary_hits.searched),
+        (0, None)
+    );
     for model in [Model::Fixed, Model::Gates] {
         for guess in [Guess::Random, Guess::Coherent] {
             let found = render(&blocks, &options(model, surely(guess))).unwrap();
             assert!(found.image == traced.image, "{model:?}, {guess:?}");
-            assert!(found.good == traced.good);
-            let searched = found.searched.unwrap();
+            assert!(found.good() == traced.good());
+            let searched = found.primary_hits.searched.unwrap();
             assert_eq!((searched.faces, searched.states), (8, 8));
             assert!(searched.failure <= 1e-12 && searched.toffoli > 100);
-            assert!(found.queries.iter().all(|&queries| queries > 64 * 8));
+            assert!(
+                found
+                    .counted
+                    .queries
+                    .iter()
+                    .all(|&queries| queries > 64 * 8)
+            );
         }
     }
     // The time of uncomputation and the way to find later hits do not matter, either.
@@ -142,7 +151,7 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
         };
         let cut = render(&room, &cut).unwrap();
         assert!(
-            (&cut.image, &cut.queries) == (&whole.image, &whole.queries),
+            (&cut.image, &cut.counted.queries) == (&whole.image, &whole.counted.queries),
             "{tile:?}"
         );
     }
@@ -151,13 +160,19 @@ fn neither_threads_nor_tiles_nor_crops_change_a_search() {
         ..plain.clone()
     };
     let part = render(&room, &part).unwrap();
-    assert_eq!(part.queries[..3], whole.queries[5 * 13 + 4..][..3]);
+    assert_eq!(
+        part.counted.queries[..3],
+        whole.counted.queries[5 * 13 + 4..][..3]
+    );
     assert_eq!(
         part.image.pixels[..3],
         whole.image.pixels[5 * 13 + 4..][..3]
     );
     let other = RenderOptions { seed: 4, ..plain };
-    assert_ne!(render(&room, &other).unwrap().queries, whole.queries);
+    assert_ne!(
+        render(&room, &other).unwrap().counted.queries,
+        whole.counted.queries
+    );
 }
 
 #[test]
@@ -186,14 +201,14 @@ fn neighbouring_pixels_guess_for_each_other_however_the_film_is_cut() {
     );
     for tile in [[1, 1], [3, 2], [7, 11], [13, 1]] {
         let cut = with(Guess::Coherent, Some(tile), None);
-        assert!((&cut.image, &cut.queries) == (&coherent.image, &coherent.queries));
+        assert!((&cut.image, &cut.counted.queries) == (&coherent.image, &coherent.counted.queries));
     }
     // A part whose left neighbours are not in the picture.
     let part = with(Guess::Coherent, None, Some([6, 2, 5, 4]));
     for row in 0..4 {
         assert_eq!(
-            part.queries[5 * row..][..5],
-            coherent.queries[13 * (row + 2) + 6..][..5]
+            part.counted.queries[5 * row..][..5],
+            coherent.counted.queries[13 * (row + 2) + 6..][..5]
         );
     }
 }
@@ -210,7 +225,7 @@ fn a_checkpoint_of_another_search_is_not_gone_on_from() {
     let first = render(&blocks, &with(surely(Guess::Random))).unwrap();
     let again = render(&blocks, &with(surely(Guess::Random))).unwrap();
     assert_eq!(again.resumed_paths, 16 * 16 * 4);
-    assert!((again.image, again.queries) == (first.image, first.queries));
+    assert!((again.image, again.counted.queries) == (first.image, first.counted.queries));
     for other in [
         surely(Guess::Coherent),
         Visibility::Exhaustive,
@@ -267,7 +282,10 @@ geometry: []
     for model in [Model::Fixed, Model::Gates] {
         let rendered = render(&scene, &options(model, Visibility::GROVER)).unwrap();
         assert_eq!(rendered.mean(), [0.0; 3]);
-        assert_eq!((rendered.total_queries(), rendered.searched), (0, None));
+        assert_eq!(
+            (rendered.total_queries(), rendered.primary_hits.searched),
+            (0, None)
+        );
     }
 }
 

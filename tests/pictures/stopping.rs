@@ -69,7 +69,7 @@ fn what_stops_by_itself_stops_within_the_error() {
             "{estimator}: {}",
             share(&found, error)
         );
-        let most = found.queries.iter().max();
+        let most = found.counted.queries.iter().max();
         assert!(most < Some(&(3 * 65535)), "{estimator}: {most:?}");
         tried += 1;
     }
@@ -86,7 +86,7 @@ fn queries_follow_the_error_and_not_the_limit() {
     assert!((3.0..6.0).contains(&(fine / coarse)), "{coarse} {fine}");
     // No interval of blue, whose scale is 0.2, is wider than 0.2, so it takes almost no queries.
     let blind = counted(10.0, Estimator::AdaptiveBayes, Colour::ThreeRuns);
-    let most = blind.queries.iter().max();
+    let most = blind.counted.queries.iter().max();
     assert!(most < Some(&100), "{most:?}");
 }
 

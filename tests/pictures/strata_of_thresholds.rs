@@ -39,7 +39,11 @@ fn scene(strata: &str) -> ValidScene {
 fn bits(rendered: &Rendered) -> (Vec<[u64; 3]>, Vec<u64>, Vec<[u8; 3]>) {
     let pixels = rendered.image.pixels.iter();
     let pixels = pixels.map(|pixel| pixel.map(f64::to_bits)).collect();
-    (pixels, rendered.queries.clone(), rendered.strata.clone())
+    (
+        pixels,
+        rendered.counted.queries.clone(),
+        rendered.counted.strata.clone(),
+    )
 }
 
 /// Returns the root mean square error over pixels and channels, of several seeds.
@@ -59,7 +63,7 @@ fn error(strata: &str, colour: Colour) -> f64 {
         };
         let exact = render(&scene, &exact).unwrap();
         let counted = render(&scene, &counted).unwrap();
-        assert!(exact.strata.iter().all(|strata| *strata == [0; 3]));
+        assert!(exact.counted.strata.iter().all(|strata| *strata == [0; 3]));
         for (a, b) in exact.image.pixels.iter().zip(&counted.image.pixels) {
             for (a, b) in a.iter().zip(b) {
                 sum += (a - b).powi(2);
@@ -86,7 +90,13 @@ fn one_run_gives_its_colours_by_strata_too() {
         ..with(Model::Real)
     };
     let found = render(&scene("4"), &options).unwrap();
-    assert!(found.strata.iter().all(|strata| *strata == [4, 0, 0]));
+    assert!(
+        found
+            .counted
+            .strata
+            .iter()
+            .all(|strata| *strata == [4, 0, 0])
+    );
 }
 
 #[test]
@@ -94,10 +104,10 @@ fn queries_are_those_that_are_allowed_and_strata_are_told() {
     for (strata, used) in [("1", Some(1)), ("4", Some(4)), ("auto", None)] {
         let scene = scene(strata);
         let found = render(&scene, &with(Model::Real)).unwrap();
-        let all = found.strata_used();
+        let all = found.counted.strata_used();
         assert_eq!(all.values().sum::<u64>(), 48);
         assert!(used.is_none_or(|used| all.keys().eq([&used])), "{all:?}");
-        for queries in &found.queries {
+        for queries in &found.counted.queries {
             assert!(*queries <= 3 * 1023, "{queries}");
         }
         let metadata = found.metadata().unwrap();
@@ -151,7 +161,7 @@ fn auto_changes_only_what_is_counted_by_strata() {
     let [auto, one] = ["auto", "1"].map(|s| render(&scene(s), &with(Model::Real)).unwrap());
     let channels = auto.image.pixels.iter().zip(&one.image.pixels);
     let mut changed = 0;
-    for ((a, b), strata) in channels.zip(&auto.strata) {
+    for ((a, b), strata) in channels.zip(&auto.counted.strata) {
         for ((a, b), strata) in a.iter().zip(b).zip(strata) {
             assert!(*strata > 1 || a.to_bits() == b.to_bits());
             changed += u32::from(*strata > 1);
@@ -172,7 +182,7 @@ fn estimators_that_count_the_whole_at_once_refuse_strata() {
         match render(&scene, &options) {
             Ok(found) => {
                 assert!(estimator.counts_strata() || estimator == Estimator::Exact);
-                assert_eq!(found.strata == [[4; 3]], estimator.counts_strata());
+                assert_eq!(found.counted.strata == [[4; 3]], estimator.counts_strata());
             }
             Err(RenderError::Estimator(error)) => {
                 assert!(!estimator.counts_strata());

@@ -7,9 +7,9 @@
 use super::spheres::seen;
 use crate::common::scene::written;
 use glam::DVec3;
-use qrt::core::tracer::{PixelClass, PixelClasses, Stage};
 use qrt::lab::verify::{VerifyOptions, verify};
 use qrt::prelude::*;
+use qrt::tracer::{PixelClass, PixelClasses, Stage};
 use std::fmt::Write as _;
 
 /// The radiance of the sun, by channel, in units of the red one.

@@ -8,7 +8,7 @@
 #![allow(clippy::format_push_string)]
 
 use qrt::scene::front;
-use qrt::scene::syntax::codes;
+use qrt::syntax::codes;
 use std::path::{Path, PathBuf};
 
 const FOLDER: &str = "tests/bad_scenes";
@@ -102,10 +102,10 @@ fn a_file_that_cannot_be_read_is_an_error_like_others() {
 
 /// Codes that no scene file gets from its checks. The first two occur only in scenes built in Rust, the third
 /// only for a file of 256 MiB, the fourth only for millions of faces, the fifth only if the OBJ library disagrees
-/// with the checks before it, the next ones only when the scene's circuit is compiled, then nine as warnings or in a build
+/// with the checks before it, the next ones only when the scene's circuit is compiled, then eleven as warnings or in a build
 /// without glTF, and the last when the scene is exported. The unit tests of `valid`, of the OBJ reader and of `oracle`,
 /// `inspect_command` and the test below show them.
-const ELSEWHERE: [&str; 22] = [
+const ELSEWHERE: [&str; 24] = [
     codes::DUPLICATE_NAME,
     codes::BSDF_CHANNELS,
     codes::OBJ_TOO_LARGE,
@@ -120,11 +120,13 @@ const ELSEWHERE: [&str; 22] = [
     codes::SMALL_PART,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
+    codes::FAINT_SUNLIGHT,
     codes::UNUSED_MATERIAL,
     codes::BLACK,
     codes::OPPOSITE_LAMP,
     codes::OBJ_COPY,
     codes::MTL_LEFT_OUT,
+    codes::COLOURS_UNUSED,
     codes::GLTF_FEATURE,
     codes::GLTF_POSE,
     codes::NO_COUNTERPART,
@@ -190,7 +192,7 @@ fn lamps_that_cannot_be_sampled_are_warned_of() {
     }
 }
 
-/// Meshes are read without faces that have no area, copies, and statements without a counterpart.
+/// Meshes are read without faces that have no area, copies, colours, and statements without a counterpart.
 #[test]
 fn what_a_mesh_leaves_out_is_warned_of() {
     let text = "name: left-out
@@ -202,7 +204,7 @@ geometry:
   - mesh: { gltf: figure.gltf, material: white }
 ";
     let obj =
-        b"mtllib room.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 3 1\n\
+        b"mtllib room.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 3 1\n\
                 f 1 2 2\nl 1 2\nusemtl wall\nf 2 4 3\n";
     let mtl =
         b"newmtl lamp\nKe 4 4 4\nnewmtl wall\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nNs 250\nbump a.png\n";
@@ -269,6 +271,8 @@ fn every_code_in_the_source_is_in_the_table() {
     let mut folders = vec![
         PathBuf::from("qrt-scene/src"),
         PathBuf::from("qrt-core/src"),
+        PathBuf::from("qrt-syntax/src"),
+        PathBuf::from("qrt-tracer/src"),
     ];
     let mut found = std::collections::BTreeSet::new();
     while let Some(folder) = folders.pop() {
@@ -316,4 +320,55 @@ fn colour_changes_nothing_but_the_colour() {
     bare += rest;
     assert_ne!(coloured, bare);
     assert_eq!(bare, report.render(false));
+}
+
+/// The real Sun beside a mirror: 60,000 levels of radiance, of which the floor has one.
+#[test]
+fn sunlight_of_few_levels_is_warned_of() {
+    let warned = |material: &str, more: &str| {
+        let text = format!(
+            "name: faint-sunlight
+camera: {{ perspective: {{ eye: [0, 2, 5], target: [0, 0, 0], vfov: 45 }} }}
+film: {{ width: 1, height: 1 }}
+materials: {{ m: {material} }}
+geometry:
+  - quad: {{ vertices: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: m }}
+sampling: {{ depths: 2 }}
+sun: {{ direction: [0, 1, 0], {more}
+"
+        );
+        let loaded = front::parse(&text, "faint-sunlight.yaml", &[], "".as_ref()).unwrap();
+        let warnings = loaded.warnings();
+        warnings.map_or(String::new(), |report| report.render(false))
+    };
+    let (matte, mirror) = (
+        "{ lambertian: { albedo: 0.5 } }",
+        "{ mirror: { reflectance: 0.5 } }",
+    );
+    let real = "angle: 0.53, radiance: 60000 }";
+    let file = Path::new(FOLDER).join("faint-sunlight.yaml");
+    compare(&file, &warned(mirror, real)).unwrap();
+    // More bits of the comparator alone do not help, and with few bits no sun does.
+    for (more, help) in [
+        ("comparator: { bits: 20 }", "write `angle: 3`"),
+        (
+            "comparator: { bits: 5 }",
+            "= help: use more `comparator.bits`",
+        ),
+        ("comparator: { bits: 0 }", "tell 1 level of"),
+    ] {
+        let warning = warned(mirror, &format!("{real}\n{more}"));
+        assert!(warning.contains(help), "{warning}");
+    }
+    // The help, followed: the larger sun, or more bits. A matte floor does not show the sun.
+    for (material, more) in [
+        (mirror, "angle: 21, radiance: 38 }"),
+        (
+            mirror,
+            "angle: 0.53, radiance: 60000 }\ncomparator: { bits: 20 }\nprecision: { fraction: 20 }",
+        ),
+        (matte, real),
+    ] {
+        assert_eq!(warned(material, more), "", "{more}");
+    }
 }

@@ -2,9 +2,24 @@
 
 use qrt_runtime::path_machines::Real;
 use qrt_scene::front::load;
-use qrt_scene::syntax::{Problem, Report};
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::{Problem, Report};
 use std::path::PathBuf;
+
+// Its `main` is the program's alone.
+#[allow(dead_code)]
+#[path = "../../examples/weekend.rs"]
+mod weekend;
+
+/// The file of the cover is what its program writes.
+#[test]
+fn the_cover_is_written_by_its_program() {
+    let file = std::fs::read_to_string(folder().join("weekend.yaml")).unwrap();
+    assert!(
+        file == weekend::text(),
+        "write it anew: cargo run --example weekend > scenes-yaml/weekend.yaml"
+    );
+}
 
 fn folder() -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "scenes-yaml"].iter().collect()
@@ -55,6 +70,7 @@ fn every_scene_shows_something() {
         "furnace",
         "knot",
         "lit-box",
+        "terrace",
         "velvet",
         "weekend",
     ];

@@ -6,7 +6,7 @@
 use super::cases;
 use proptest::prelude::*;
 use qrt::scene::front;
-use qrt::scene::syntax::Source;
+use qrt::syntax::Source;
 use std::time::{Duration, Instant};
 
 /// Parses a text and renders its errors.
@@ -317,8 +317,8 @@ fn bombs_are_refused_in_time() {
 /// Places at the very end, between the bytes of a character, and behind the end.
 #[test]
 fn any_place_can_be_shown() {
-    use qrt::scene::syntax::tree::Span;
-    use qrt::scene::syntax::{Camera, Problem, Report, What};
+    use qrt::syntax::tree::Span;
+    use qrt::syntax::{Camera, Problem, Report, What};
     let what = What::OfFile {
         what: Box::new(Camera::NoView.into()),
         place: "here\n\tand there".into(),

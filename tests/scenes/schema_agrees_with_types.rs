@@ -6,8 +6,8 @@
 #![allow(clippy::format_push_string)]
 
 use qrt::scene::Scene;
-use qrt::scene::syntax::codes;
 use qrt::scene::{front, schema};
+use qrt::syntax::codes;
 use serde_json::{Value, json};
 use std::path::Path;
 

@@ -6,8 +6,8 @@
 use super::cases;
 use proptest::prelude::*;
 use qrt::scene::front::yaml;
-use qrt::scene::syntax::tree::{Kind, Node, Value};
-use qrt::scene::syntax::{Problems, Report, Source};
+use qrt::syntax::tree::{Kind, Node, Value};
+use qrt::syntax::{Problems, Report, Source};
 use serde_yaml::Value as Other;
 
 fn read(text: &str) -> Option<Node> {

@@ -10,7 +10,7 @@ use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::rt_triangle::RtTriangle;
-use qrt::core::tracer::{NO_FACE, StageGeometry};
+use qrt::tracer::{NO_FACE, StageGeometry};
 use qrt::runtime::path_machines::SingleRay;
 use std::time::Duration;
 

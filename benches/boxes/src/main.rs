@@ -19,7 +19,7 @@ mod paths;
 
 use contenders::{Cwbvh, Doubles, Halves, Triangle};
 use mesh::{CLOSE, SIDE, VIEW, WHOLE};
-use qrt::core::tracer::NO_FACE;
+use qrt::tracer::NO_FACE;
 use qrt::runtime::path_machines::{Real, SingleRay};
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,9 +1,9 @@
 //! Rays of a scene's paths, one path at a time, in plain numbers.
 
-use qrt::core::tracer::trace;
-use qrt::core::tracer::{Arith, Coordinate, Hit, NO_FACE, NearestSearch, Ray, Sampled, Start};
+use qrt::tracer::trace;
+use qrt::tracer::{Arith, Coordinate, Hit, NO_FACE, NearestSearch, Ray, Sampled, Start};
 use qrt::runtime::path_machines::{Real, SingleRay};
-use qrt::scene::expr::Function;
+use qrt::syntax::expr::Function;
 use qrt::scene::sampling::{PathPoints, cell_centre};
 use qrt::scene::valid::ValidScene;
 use std::cell::RefCell;

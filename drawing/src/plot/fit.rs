@@ -73,7 +73,7 @@ impl Fit {
     }
 
     /// Returns half the width of the line's 95 % interval at log10 x = `x`.
-    pub fn band(&self, x: f64) -> f64 {
+    pub(crate) fn band(&self, x: f64) -> f64 {
         let off = x - self.mean;
         self.reach * (1.0 / self.count + off * off / self.spread).sqrt()
     }

@@ -8,12 +8,12 @@ use qrt::circuit::lower;
 use qrt::core::compile::Role;
 use qrt::core::inspect::{CallPart, Inspection, grouped};
 use qrt::core::oracle::{Oracle, OracleOptions, Oracles};
-use qrt::core::tracer::PixelClass;
 use qrt::drawing::{Canvas, Drawn, Plot, PlotAxis, Series};
 use qrt::lab::draw;
 use qrt::runtime::render::{self, Model, Rendered};
 use qrt::scene::Estimator;
 use qrt::scene::valid::ValidScene;
+use qrt::tracer::PixelClass;
 
 /// A lamp in front of a wall: a circuit small enough to be seen whole.
 const WALL: &str = include_str!("../../lit-wall.yaml");

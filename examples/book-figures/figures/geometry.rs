@@ -1,10 +1,10 @@
 //! Geometry of rays: a path, the edges of a face, and a point on a lamp.
 
 use super::{Figure, cornell, scene};
-use qrt::core::tracer::StageGeometry;
 use qrt::drawing::{Canvas, Panel, polyline};
-use qrt::runtime::predicates::trace_path_of;
 use qrt::runtime::render::Model;
+use qrt::runtime::traced_path::trace_path_of;
+use qrt::tracer::StageGeometry;
 
 /// Draws a path of the Cornell box, from the side.
 pub(super) fn path() -> Figure {

@@ -3,9 +3,9 @@
 use super::{Figure, style};
 use qrt::counting::random::Stream;
 use qrt::drawing::{Canvas, polyline};
-use qrt::scene::expr::Variables;
 use qrt::scene::sampling::{Coordinate, PathPoints, cell_centre, maps};
 use qrt::scene::{DepthSampling, Map, Sampling, Sequence};
+use qrt::syntax::expr::Variables;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 

@@ -13,7 +13,7 @@
 //! run. An operation that was recomputed only to undo a register that is now a ghost need not run
 //! at all. Of `k` nested scopes, the innermost is computed `k + 1` times instead of `2^k`.
 
-use super::super::{Op, Program};
+use super::super::{Instruction, Op, Program, RegisterId};
 
 /// Returns the instructions that remain of a program that returns all its results to zero, if
 /// registers may leave ghosts: true for each that remains.
@@ -22,14 +22,20 @@ use super::super::{Op, Program};
 /// operation changes a register in place, if two operations compute the same register, or if a
 /// register is not returned to zero.
 pub fn with_ghosts(program: &Program) -> Vec<bool> {
-    let Some(runs) = Runs::from_program(program) else {
-        return vec![true; program.instructions.len()];
+    let ops: Vec<&Op> = program.ops.iter().collect();
+    steps_with_ghosts(program.registers.len(), &ops, &program.instructions)
+}
+
+/// [`with_ghosts`] of a program with this number of registers, these operations and these instructions.
+pub fn steps_with_ghosts(registers: usize, ops: &[&Op], steps: &[Instruction]) -> Vec<bool> {
+    let Some(runs) = Runs::new(registers, ops, steps) else {
+        return vec![true; steps.len()];
     };
-    let mut left = vec![false; program.instructions.len()];
-    let mut needed: Vec<usize> = runs.always.clone();
+    let mut left = vec![false; steps.len()];
+    let mut needed = runs.always.clone();
     while let Some(at) = needed.pop() {
-        if !std::mem::replace(&mut left[at], true) {
-            needed.extend(&runs.reads[at]);
+        if !std::mem::replace(&mut left[at as usize], true) {
+            needed.extend(runs.reads(at as usize));
         }
     }
     left
@@ -37,52 +43,72 @@ pub fn with_ghosts(program: &Program) -> Vec<bool> {
 
 /// The instructions that computed the operands of each instruction.
 struct Runs {
-    /// For each instruction, the instructions that computed the registers that it reads.
-    reads: Vec<Vec<usize>>,
+    /// The instructions that computed the registers that each instruction reads, in one list.
+    reads: Vec<u32>,
+    /// By instruction: the end of its part of the list.
+    ends: Vec<usize>,
     /// The last run of each operation, and its inverse; operations that compute nothing.
-    always: Vec<usize>,
+    always: Vec<u32>,
 }
 
 impl Runs {
-    fn from_program(program: &Program) -> Option<Self> {
-        // The instruction that computed the content of each register.
-        let mut holder: Vec<Option<usize>> = vec![None; program.registers.len()];
+    fn new(registers: usize, ops: &[&Op], steps: &[Instruction]) -> Option<Self> {
+        // One more than the instruction that computed the content of each register; 0 if it is empty.
+        let mut holder: Vec<u32> = vec![0; registers];
         // The last run of each operation: the instructions at which it begins and ends.
-        let mut last: Vec<Option<[usize; 2]>> = vec![None; program.ops.len()];
-        let mut writer: Vec<Option<u32>> = vec![None; program.registers.len()];
-        let mut reads = Vec::with_capacity(program.instructions.len());
+        let mut last: Vec<Option<[u32; 2]>> = vec![None; ops.len()];
+        let mut writer: Vec<Option<u32>> = vec![None; registers];
+        let mut reads = Vec::new();
+        let mut ends = Vec::with_capacity(steps.len());
         let mut always = Vec::new();
-        for (at, instruction) in program.instructions.iter().enumerate() {
-            let op = &program.ops[instruction.op as usize];
-            let found = op.reads().into_iter();
-            let found = found.filter_map(|register| holder[register.index()]);
-            reads.push(found.collect());
-            let fresh = op.fresh();
-            if fresh.is_empty() {
+        for (at, instruction) in steps.iter().enumerate() {
+            let at = at as u32;
+            let op = ops[instruction.op as usize];
+            op.each_read(&mut |register| reads.extend(holder[register.index()].checked_sub(1)));
+            ends.push(reads.len());
+            let (mut computes, mut is_only_writer) = (false, true);
+            let mut write = |register: RegisterId| {
+                computes = true;
+                // Two operations that write the same register need not compute the same value.
+                let writer = writer[register.index()].get_or_insert(instruction.op);
+                is_only_writer &= *writer == instruction.op;
+                let holder = &mut holder[register.index()];
+                if instruction.inverse
+                    && let Some(begin) = holder.checked_sub(1)
+                {
+                    last[instruction.op as usize] = Some([begin, at]);
+                }
+                *holder = if instruction.inverse { 0 } else { at + 1 };
+            };
+            op.each_target(&mut write);
+            if let Some(register) = op.scratch() {
+                write(register);
+            }
+            if !is_only_writer {
+                return None;
+            }
+            if !computes {
                 if !matches!(op, Op::Phase { .. }) {
                     return None;
                 }
                 always.push(at);
             }
-            for register in &fresh {
-                // Two operations that write the same register need not compute the same value.
-                let writer = writer[register.index()].get_or_insert(instruction.op);
-                if *writer != instruction.op {
-                    return None;
-                }
-                let holder = &mut holder[register.index()];
-                if let Some(begin) = holder.filter(|_| instruction.inverse) {
-                    last[instruction.op as usize] = Some([begin, at]);
-                }
-                *holder = (!instruction.inverse).then_some(at);
-            }
         }
         // A register that is not returned to zero was never undone.
-        if holder.iter().any(Option::is_some) {
+        if holder.iter().any(|holder| *holder > 0) {
             return None;
         }
         always.extend(last.into_iter().flatten().flatten());
-        Some(Self { reads, always })
+        Some(Self {
+            reads,
+            ends,
+            always,
+        })
+    }
+
+    fn reads(&self, at: usize) -> &[u32] {
+        let start = at.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.reads[start..self.ends[at]]
     }
 }
 

@@ -45,12 +45,12 @@ pub use cost::{Cost, OpFigures, cost, costs};
 pub use figures::{KnownFigures, tally, toffoli};
 #[doc(hidden)]
 pub use figures::{Quick, QuickMap};
-pub use ghosts::with_ghosts;
+pub use ghosts::{steps_with_ghosts, with_ghosts};
 pub use place::{
     circuit, each_instruction, parts, parts_between, scratch_width, try_each_instruction,
 };
 pub use scale::least_toffoli;
-pub use size::{Size, depth, most_qubits, most_qubits_by, size};
+pub use size::{HeldQubits, Size, depth, most_qubits, most_qubits_by, size};
 pub use table::best_low;
 pub use template::{Templates, try_each_template};
 

@@ -1,6 +1,6 @@
 //! Number of qubits and Toffoli depth of circuits.
 
-use super::super::{Gate, GateCircuit, Program, Qubit};
+use super::super::{Gate, GateCircuit, Op, Program, Qubit, Register, RegisterId};
 #[cfg(doc)]
 use super::cost::OpFigures;
 use super::figures::KnownFigures;
@@ -47,32 +47,85 @@ pub fn most_qubits(program: &Program) -> u32 {
 /// Returns [`most_qubits`], given the number of qubits that each operation borrows, by its index:
 /// [`OpFigures::borrowed`].
 pub fn most_qubits_by(program: &Program, mut borrowed: impl FnMut(usize) -> u32) -> u32 {
-    let mut held = vec![false; program.registers.len()];
-    let (mut in_use, mut most) = (0, 0);
-    for input in &program.inputs {
-        if !std::mem::replace(&mut held[input.index()], true) {
-            in_use += program.width(*input);
-        }
-    }
-    most = most.max(in_use);
+    let mut held = HeldQubits::new(&program.registers, &program.inputs);
     for instruction in &program.instructions {
         let number = instruction.op as usize;
-        let fresh = program.ops[number].fresh();
-        for register in &fresh {
-            if !std::mem::replace(&mut held[register.index()], true) {
-                in_use += program.width(*register);
-            }
+        held.step(&program.ops[number], instruction.inverse, borrowed(number));
+    }
+    held.most()
+}
+
+/// The qubits of registers that hold a value, counted while the steps of a program run.
+///
+/// ```
+/// use qrt_circuit::lower::{HeldQubits, most_qubits};
+/// use qrt_circuit::{Declaration, Machine, Recorder, Style, Type, Word};
+///
+/// let mut m = Recorder::new(Style::InPlace);
+/// let x = m.input(&Declaration::work("x", Type::UInt, 3));
+/// m.copy(&Declaration::work("copy", Type::UInt, 3), Word::unsigned(&x, 0, 3));
+/// let program = m.finish();
+/// let mut held = HeldQubits::new(&program.registers, &program.inputs);
+/// held.step(&program.ops[0], false, 0);
+/// assert_eq!(held.most(), most_qubits(&program));
+/// ```
+#[derive(Clone, Debug)]
+pub struct HeldQubits<'a> {
+    registers: &'a [Register],
+    held: Vec<bool>,
+    in_use: u32,
+    most: u32,
+}
+
+impl<'a> HeldQubits<'a> {
+    /// Begins with values in `inputs`, which are some of `registers`.
+    pub fn new(registers: &'a [Register], inputs: &[RegisterId]) -> Self {
+        let mut all = Self {
+            registers,
+            held: vec![false; registers.len()],
+            in_use: 0,
+            most: 0,
+        };
+        for input in inputs {
+            all.hold(*input);
         }
-        most = most.max(in_use + borrowed(number));
-        if instruction.inverse {
-            for register in &fresh {
-                if std::mem::replace(&mut held[register.index()], false) {
-                    in_use -= program.width(*register);
-                }
+        all.most = all.in_use;
+        all
+    }
+
+    fn hold(&mut self, register: RegisterId) {
+        let place = register.index();
+        if !std::mem::replace(&mut self.held[place], true) {
+            self.in_use += self.registers[place].width;
+        }
+    }
+
+    fn free(&mut self, register: RegisterId) {
+        let place = register.index();
+        if std::mem::replace(&mut self.held[place], false) {
+            self.in_use -= self.registers[place].width;
+        }
+    }
+
+    /// Runs an operation, or its inverse, that borrows this number of qubits.
+    pub fn step(&mut self, op: &Op, inverse: bool, borrowed: u32) {
+        op.each_target(|register| self.hold(register));
+        if let Some(register) = op.scratch() {
+            self.hold(register);
+        }
+        self.most = self.most.max(self.in_use + borrowed);
+        if inverse {
+            op.each_target(|register| self.free(register));
+            if let Some(register) = op.scratch() {
+                self.free(register);
             }
         }
     }
-    most
+
+    /// The most qubits in use so far.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
 }
 
 /// The Toffoli depth of a circuit: each gate runs as early as its qubits allow, and only Toffolis

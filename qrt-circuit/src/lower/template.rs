@@ -92,7 +92,7 @@ impl<T> Template<T> {
     }
 }
 
-/// Lowers a program instruction by instruction, as [`super::try_each_instruction`] does, with each
+/// Lowers a program instruction by instruction, as [`super::each_instruction`] does, with each
 /// operation on qubits of its own.
 ///
 /// `make` receives an operation's gates and their number of qubits. It returns a result and the

@@ -202,8 +202,8 @@ impl PhaseOracle {
     /// Returns the same oracle with some qubits of its index fixed: `zeros` hold 0 and `ones` hold
     /// 1. All others stay in superposition.
     ///
-    /// That counts a stratum: the stratum's circuit has an X, or nothing, where the whole's circuit
-    /// begins with a Hadamard.
+    /// The oracle's circuits then count among a part of the indices: they have an X, or nothing, where
+    /// the circuit over all indices begins with a Hadamard.
     ///
     /// # Errors
     /// A qubit that is not in superposition, or is named twice; no qubit left in superposition.
@@ -308,7 +308,7 @@ impl PhaseOracle {
     ///
     /// # Errors
     /// An error of `sink`.
-    pub fn apply_signs<E, S: FnMut(QuantumGate<'_>) -> Result<(), E>>(
+    pub(crate) fn apply_signs<E, S: FnMut(QuantumGate<'_>) -> Result<(), E>>(
         &self,
         sign: &mut impl FnMut(&[Qubit], &mut S) -> Result<(), E>,
         sink: &mut S,

@@ -4,9 +4,9 @@ use super::names::Nameable;
 use super::number::RegisterShape;
 use super::value::{Affine, BoolValue, Index, RealValue, Value, bits_of};
 use super::{BuildError, Builder, MAX_ADDRESS, StageName, negative_range};
-use crate::tracer::{Arith, Coordinate, Named, Sampled, Segment, TracerPart, Work};
 use qrt_circuit::{Op, Operand, Word};
-use qrt_scene::expr::Function;
+use qrt_syntax::expr::Function;
+use qrt_tracer::{Arith, Coordinate, Named, Sampled, Segment, TracerPart, Work};
 
 impl Arith for Builder<'_> {
     type Real = RealValue;
@@ -287,6 +287,7 @@ impl Arith for Builder<'_> {
             TracerPart::Sky(k) => self.begin(StageName::Sky, depth(k)),
             TracerPart::Side(k) => self.begin(StageName::Side, depth(k)),
             TracerPart::Normal(k) => self.begin(StageName::Normal, depth(k)),
+            TracerPart::Tint => self.begin(StageName::Tint, None),
             TracerPart::Sample => self.begin(StageName::Sample, None),
             TracerPart::Component(axis) => self.begin(StageName::Component(axis as u32), None),
             TracerPart::Shade(k) => self.begin(StageName::Shade, depth(k)),

@@ -75,7 +75,7 @@ impl Builder<'_> {
     }
 
     /// Opens the block of the comparison with the nearest hit so far.
-    /// [`crate::tracer::Arith::leave`] closes the block.
+    /// [`qrt_tracer::Arith::leave`] closes the block.
     pub(crate) fn enter_nearer(&mut self) {
         self.begin(StageName::Nearer, None);
     }

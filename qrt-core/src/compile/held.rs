@@ -2,7 +2,7 @@
 
 use super::value::{BoolValue, Index, RealValue};
 use super::{Builder, Op, Operand, RegisterId, StageName, Type, Word};
-use crate::tracer::Segment;
+use qrt_tracer::Segment;
 
 impl<'a> Builder<'a> {
     /// The ray after `depth` bounces and its hit; none if no path has this ray.
@@ -10,9 +10,9 @@ impl<'a> Builder<'a> {
         self.segments.get(depth).copied()
     }
 
-    /// Opens the block of a predicate. [`crate::tracer::Arith::leave`] closes the block.
-    pub(crate) fn enter_predicate(&mut self) {
-        self.begin(StageName::Predicate, None);
+    /// Opens a block of the stage `name`. [`qrt_tracer::Arith::leave`] closes the block.
+    pub(crate) fn enter_stage(&mut self, name: StageName) {
+        self.begin(name, None);
     }
 
     /// Copies `a 2^shift`, in units in the last place and rounded down, to a register of its own.

@@ -33,10 +33,10 @@ pub(crate) fn locked(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
 }
 
 /// The place where the figures of an operation are kept.
-enum Place {
+enum Place<'a> {
     Recorded(usize),
-    Merged(Box<[RegisterId]>),
-    /// Not kept: copies have other numbers in each program.
+    Merged(&'a [RegisterId]),
+    /// Not kept: registers that passes add have other numbers in each program.
     Nowhere,
 }
 
@@ -51,8 +51,8 @@ impl Known {
         let mut unknown = Vec::new();
         for op in ops {
             let place = self.place(op);
-            let known = match &place {
-                Place::Recorded(first) => self.of_recorded[*first],
+            let known = match place {
+                Place::Recorded(first) => self.of_recorded[first],
                 Place::Merged(targets) => self.of_merged.get(targets).copied(),
                 Place::Nowhere => None,
             };
@@ -69,7 +69,7 @@ impl Known {
             match place {
                 Place::Recorded(first) => self.of_recorded[first] = Some(found),
                 Place::Merged(targets) => {
-                    self.of_merged.insert(targets, found);
+                    self.of_merged.insert(targets.into(), found);
                 }
                 Place::Nowhere => {}
             }
@@ -77,14 +77,15 @@ impl Known {
         figures
     }
 
-    fn place(&self, op: &Op) -> Place {
-        if let Op::Table { targets, .. } | Op::Multiples { targets, .. } = op {
-            return Place::Merged(targets.clone());
-        }
-        let first = op.targets().first().map(|target| target.index());
-        match first.filter(|first| *first < self.of_recorded.len()) {
-            Some(first) => Place::Recorded(first),
-            None => Place::Nowhere,
+    fn place<'a>(&self, op: &'a Op) -> Place<'a> {
+        let mut first = None;
+        op.each_target(|target| _ = first.get_or_insert(target.index()));
+        let Some(first) = first.filter(|first| *first < self.of_recorded.len()) else {
+            return Place::Nowhere;
+        };
+        match op {
+            Op::Table { targets, .. } | Op::Multiples { targets, .. } => Place::Merged(targets),
+            _ => Place::Recorded(first),
         }
     }
 

@@ -101,6 +101,8 @@ pub enum StageName {
     Side,
     /// The interpolated normal of a smooth face.
     Normal,
+    /// The interpolated tint of a face with colours at its vertices, within a ray or the sampling of a lamp.
+    Tint,
     /// A sampled direction in the local frame, within a ray.
     Sample,
     /// One component of a vector, within a ray: 0, 1, 2.
@@ -146,6 +148,7 @@ impl StageName {
             Self::FindIntersection => "find_intersection",
             Self::Side => "side",
             Self::Normal => "normal",
+            Self::Tint => "tint",
             Self::Sample => "sample",
             Self::Shade => "shade",
             Self::SampleLight => "sample_light",
@@ -189,7 +192,7 @@ pub struct Label {
 
 impl Label {
     /// Stages without a number that blocks can be. A stage's index here is its code in a tag.
-    const PLAIN: [StageName; 17] = [
+    const PLAIN: [StageName; 18] = [
         StageName::Oracle,
         StageName::GenerateRay,
         StageName::FindIntersection,
@@ -207,6 +210,7 @@ impl Label {
         StageName::LevelPhase,
         StageName::Mesh,
         StageName::Normal,
+        StageName::Tint,
     ];
 
     /// Returns a block's label. A block without a tag is a whole program.
@@ -303,6 +307,32 @@ impl PixelWord {
             Self::Affine { width, .. } => ("pixel".to_owned(), width),
         };
         qrt_circuit::Parameter { name, width }
+    }
+
+    /// The words of `program`, whose parameters may have more bits than `words`.
+    pub(crate) fn of_program(words: &[Self], program: &qrt_circuit::Program) -> Vec<Self> {
+        let words = words.iter().zip(&program.parameters);
+        let words = words.map(|(word, parameter)| word.widened(parameter.width));
+        words.collect()
+    }
+
+    /// The same word with at least `width` bits. An [`Affine`](Self::Affine) that is widened is never negative; a
+    /// shift is never widened.
+    fn widened(self, width: u32) -> Self {
+        match self {
+            Self::Affine {
+                constant,
+                along,
+                fraction,
+                width: own,
+            } => Self::Affine {
+                constant,
+                along,
+                fraction,
+                width: width.max(own),
+            },
+            shift @ Self::Shift { .. } => shift,
+        }
     }
 
     /// Numbers that two words share if they are equal.

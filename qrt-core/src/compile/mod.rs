@@ -1,6 +1,6 @@
 //! The builder: the tracer, read as a program.
 //!
-//! It implements [`Arith`](crate::tracer::Arith) by recording the operations that the tracer calls.
+//! It implements [`Arith`](qrt_tracer::Arith) by recording the operations that the tracer calls.
 //! Real numbers become fixed-point numbers with one common number of fraction bits. Each is
 //!
 //! ```text
@@ -30,6 +30,7 @@ mod function;
 mod given;
 mod groups;
 mod held;
+mod in_place;
 mod known;
 mod label;
 mod names;
@@ -38,6 +39,7 @@ mod order;
 mod passes;
 mod pebble;
 mod product;
+mod queue;
 mod recompute;
 mod root;
 mod strategy;
@@ -48,17 +50,17 @@ mod value;
 pub(crate) use known::{Known, locked};
 pub use label::{Label, PixelWord, Role, StageName};
 pub use names::{NamedPlace, ValuePlace};
-pub(crate) use passes::{Roots, assemble};
+pub(crate) use passes::{PricedProgram, Roots, Stem, assemble};
 pub use strategy::{Garbage, Scope, Strategy};
 pub use value::{BoolValue, Index, RealValue};
 
-use crate::tracer::{Coordinate, Segment, WideValue};
 use draft::Draft;
 use names::NamedValue;
 use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{Bit, Block, BlockId, Op, Operand, Register, RegisterId, Style, Type, Word};
 use qrt_scene::sampling::PathPoints;
-use qrt_scene::syntax::{Circuit, What};
+use qrt_syntax::{Circuit, What};
+use qrt_tracer::{Coordinate, Segment, WideValue};
 use std::collections::HashMap;
 use std::rc::Rc;
 use table::SharedTables;
@@ -310,7 +312,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Opens the block of the rounding of colours. [`crate::tracer::Arith::leave`] closes the block.
+    /// Opens the block of the rounding of colours. [`qrt_tracer::Arith::leave`] closes the block.
     pub(crate) fn enter_count(&mut self) {
         self.begin(StageName::Count, None);
     }
@@ -544,3 +546,6 @@ impl<'a> Builder<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,9 +2,9 @@
 
 use super::value::{BoolValue, Index, RealValue};
 use super::{Affine, Builder};
-use crate::tracer::{Named, Quantity};
 use qrt_circuit::{Bit, RegisterId, Word};
 use qrt_scene::sampling::Square;
+use qrt_tracer::{Named, Quantity};
 use std::fmt;
 
 /// A value that the tracer has a name for.

@@ -10,13 +10,15 @@
 //!    a scope copies the results that are read outside it and then runs backwards. If qubits cost more than
 //!    gates, [`super::recompute`] orders the instructions, or [`super::pebble`] those of a small program.
 
-use super::draft::{Draft, Renamed};
+use super::draft::{Draft, Reach, Renamed, Wires};
 use super::known::{Known, locked};
 use super::{
     Label, Passes, PixelWord, Recorded, Scope, StageName, Strategy, groups, pebble, recompute,
 };
 use qrt_circuit::lower::{self, OpFigures, QuickMap};
-use qrt_circuit::{Bit, BlockId, Instruction, Multiples, Op, Program, RegisterId, Style, Word};
+use qrt_circuit::{
+    Bit, BlockId, Instruction, Multiples, Op, Parameter, Program, Register, RegisterId, Style, Word,
+};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
@@ -329,13 +331,15 @@ struct Scheduler<'a> {
     /// By block: true if its work is undone at its end.
     scopes: Vec<bool>,
     items: Vec<Vec<Item>>,
-    /// By register, except copies: the blocks of the operations that read it. `None` stands for the
-    /// program's end.
-    readers: Vec<Vec<Option<BlockId>>>,
-    /// Copies that stand for registers of finished scopes.
+    wires: Wires,
+    /// By register: the blocks that read it, or the register that it is a copy of.
+    reaches: Vec<Reach>,
+    /// The newest copies of registers of finished scopes.
     renamed: Renamed,
-    /// By copy: the registers that it stands for.
-    stands_for: QuickMap<RegisterId, Vec<RegisterId>>,
+    /// By copy, in the order in which they are made: the register that it stands for.
+    originals: Vec<RegisterId>,
+    /// Number of registers that are no copies.
+    recorded: usize,
     /// By register: one more than the place of the block's instruction that computed it, while the block is
     /// processed; 0 otherwise. A vector, because hash maps would take most of the time in unoptimised
     /// builds.
@@ -367,20 +371,10 @@ fn schedule(
         });
         return (instructions.collect(), Renamed::default());
     }
-    let mut readers = vec![Vec::new(); draft.registers.len()];
-    for root in roots.registers {
-        readers[root.index()].push(None);
-    }
     // A block's place in its parent is the place of its first operation.
     let mut placed = vec![false; draft.blocks.len()];
     let mut items: Vec<Vec<Item>> = vec![Vec::new(); draft.blocks.len()];
-    for (place, (op, block)) in draft.ops.iter().enumerate() {
-        for read in op.reads() {
-            let readers: &mut Vec<Option<BlockId>> = &mut readers[read.index()];
-            if readers.last() != Some(&Some(*block)) {
-                readers.push(Some(*block));
-            }
-        }
+    for (place, (_, block)) in draft.ops.iter().enumerate() {
         let mut at = *block;
         while let Some(parent) = draft.blocks[at.index()].parent
             && !std::mem::replace(&mut placed[at.index()], true)
@@ -391,17 +385,21 @@ fn schedule(
         items[block.index()].push(Item::Op(place));
     }
     let scope = |block| strategy.is_scope(Label::from_block(block).stage);
+    let wires = Wires::new(draft);
     let mut scheduler = Scheduler {
         scopes: draft.blocks.iter().map(scope).collect(),
+        reaches: draft.reaches(&wires, roots.registers),
+        recorded: draft.registers.len(),
+        computed: vec![0; draft.registers.len()],
+        stays: vec![false; draft.ops.len()],
         draft,
         items,
-        readers,
+        wires,
         renamed: Renamed::default(),
-        stands_for: QuickMap::default(),
-        computed: Vec::new(),
-        stays: Vec::new(),
+        originals: Vec::new(),
     };
-    let instructions = scheduler.block(BlockId::ROOT);
+    let mut instructions = Vec::new();
+    scheduler.block(BlockId::ROOT, &mut instructions);
     (instructions, scheduler.renamed)
 }
 
@@ -415,7 +413,7 @@ fn fewest_qubits(
 ) -> (Vec<Instruction>, Renamed) {
     let Roots { registers, after } = roots;
     let pebbled = pebble::schedule(draft, registers, after, known);
-    let pebbled = pebbled.map(|order| (draft.clone(), order, Renamed::default()));
+    let pebbled = pebbled.map(|all| (all.draft, all.order, all.renamed));
     let again = |mut draft: Draft| {
         let (order, renamed) = recompute::schedule(&mut draft, strategy, registers, known);
         (draft, order, renamed)
@@ -451,75 +449,63 @@ fn qubits(draft: &Draft, order: &[Instruction], after: u32, known: &Mutex<Known>
 }
 
 impl Scheduler<'_> {
-    /// Returns the instructions of a block. A scope leaves only the results that are read outside it, most
+    /// Appends the instructions of a block. A scope leaves only the results that are read outside it, most
     /// of them as copies.
-    fn block(&mut self, block: BlockId) -> Vec<Instruction> {
-        let mut forward = Vec::new();
+    fn block(&mut self, block: BlockId, all: &mut Vec<Instruction>) {
+        let start = all.len();
         for item in std::mem::take(&mut self.items[block.index()]) {
             match item {
                 Item::Op(op) => {
-                    let at = &mut self.draft.ops[op].0;
-                    if at
-                        .reads()
-                        .iter()
-                        .any(|read| self.renamed.contains_key(read))
-                    {
-                        let renamed = |read| self.renamed.get(&read).copied().unwrap_or(read);
-                        *at = at.clone().map(renamed, |computed| computed);
-                    }
-                    forward.push(Instruction {
+                    self.rename(op);
+                    all.push(Instruction {
                         op: op as u32,
                         inverse: false,
                         block,
                     });
                 }
-                Item::Block(inner) => forward.extend(self.block(inner)),
+                Item::Block(inner) => self.block(inner, all),
             }
         }
         if !self.scopes[block.index()] {
-            return forward;
+            return;
         }
         let parent = self.draft.blocks[block.index()]
             .parent
             .unwrap_or(BlockId::ROOT);
         // Registers that are computed here, or copied here by inner scopes, and read outside.
-        self.computed.resize(self.draft.registers.len(), 0);
-        let mut all = Vec::new();
-        for (place, instruction) in forward.iter().enumerate() {
-            for target in self.draft.ops[instruction.op as usize].0.targets() {
+        for (place, instruction) in all[start..].iter().enumerate() {
+            for target in self.wires.targets(instruction.op as usize) {
                 let computed = &mut self.computed[target.index()];
                 *computed = if instruction.inverse { 0 } else { place + 1 };
-                all.push(target);
             }
         }
         let mut outside: Vec<(usize, RegisterId)> = Vec::new();
-        for register in all {
-            let computed = std::mem::take(&mut self.computed[register.index()]);
-            if computed > 0 && self.read_outside(register, block) {
-                outside.push((computed - 1, register));
+        for instruction in &all[start..] {
+            for &target in self.wires.targets(instruction.op as usize) {
+                let computed = std::mem::take(&mut self.computed[target.index()]);
+                if computed > 0 && (self.draft).is_read_outside(self.reaches[target.index()], block)
+                {
+                    outside.push((computed - 1, target));
+                }
             }
         }
         outside.sort_unstable();
         // A result of an operation without garbage may stay as it is.
-        let mut copies = Vec::new();
-        self.stays.resize(self.draft.ops.len(), false);
+        let computed = all.len();
         let mut stay = Vec::new();
         for (place, register) in outside {
-            let op = forward[place].op as usize;
-            let (computed, own) = &self.draft.ops[op];
-            if *own == block && computed.scratch().is_none() {
+            let op = all[start + place].op as usize;
+            if self.draft.ops[op].1 == block && self.wires.scratch(op).is_none() {
                 self.stays[op] = true;
                 stay.push(op);
             } else {
-                copies.push(self.copy(register, parent));
+                all.push(self.copy(register, parent));
             }
         }
-        let computed = forward.len();
-        forward.extend(copies);
-        for place in (0..computed).rev() {
-            let instruction = forward[place];
+        for place in (start..computed).rev() {
+            let instruction = all[place];
             if !self.stays[instruction.op as usize] {
-                forward.push(Instruction {
+                all.push(Instruction {
                     inverse: !instruction.inverse,
                     ..instruction
                 });
@@ -528,37 +514,30 @@ impl Scheduler<'_> {
         for op in stay {
             self.stays[op] = false;
         }
-        forward
     }
 
-    fn read_outside(&self, register: RegisterId, block: BlockId) -> bool {
-        // The readers of a copy are the readers of the registers that it stands for.
-        let originals = self.stands_for.get(&register).into_iter().flatten();
-        let mut readers = originals
-            .chain([&register])
-            .filter_map(|name| self.readers.get(name.index()));
-        readers.any(|all| all.iter().any(|reader| !self.is_within(*reader, block)))
-    }
-
-    /// True if `reader` is `block` or a block within it.
-    fn is_within(&self, reader: Option<BlockId>, block: BlockId) -> bool {
-        let mut at = reader;
-        while let Some(own) = at {
-            if own == block {
-                return true;
-            }
-            at = self.draft.blocks[own.index()].parent;
+    /// Lets an operation read the copies of registers of finished scopes.
+    fn rename(&mut self, op: usize) {
+        let renamed = |read: &RegisterId| self.renamed.get(read).copied();
+        if (self.wires.reads(op).iter()).any(|read| renamed(read).is_some()) {
+            let at = &mut self.draft.ops[op].0;
+            *at = at
+                .clone()
+                .map(|read| renamed(&read).unwrap_or(read), |computed| computed);
         }
-        false
     }
 
     fn copy(&mut self, register: RegisterId, parent: BlockId) -> Instruction {
         let (id, instruction) = self.draft.copy(register, parent);
-        // All earlier names map to the newest copy.
-        let mut names = self.stands_for.remove(&register).unwrap_or_default();
-        names.push(register);
-        self.renamed.extend(names.iter().map(|name| (*name, id)));
-        self.stands_for.insert(id, names);
+        // Operations read a copy by the name of the register that it stands for.
+        let original = (register.index().checked_sub(self.recorded))
+            .map_or(register, |copy| self.originals[copy]);
+        self.renamed.insert(original, id);
+        self.originals.push(original);
+        self.reaches.push(self.reaches[original.index()]);
+        self.wires.push(&self.draft.ops[instruction.op as usize].0);
+        self.computed.push(0);
+        self.stays.push(false);
         instruction
     }
 }
@@ -580,6 +559,108 @@ impl<'a> From<&'a [RegisterId]> for Roots<'a> {
     }
 }
 
+/// The first passes of a draft, which only depend on [`Strategy::stem`].
+fn stem(
+    draft: &mut Draft,
+    records: &[RegisterId],
+    roots: &[RegisterId],
+    passes: Passes,
+    strategy: Strategy,
+    known: &Mutex<Known>,
+) {
+    locked(known)
+        .of_recorded
+        .resize(draft.registers.len(), None);
+    if strategy.undoes(Scope::Plane) {
+        groups::separate(draft);
+    }
+    if passes.needed {
+        needed(draft, &[roots, records].concat());
+    }
+    if passes.merge {
+        merge_tables(draft, known);
+    }
+}
+
+/// The last passes of a draft: its instructions, and the copies that replace some of its `roots`.
+fn branch(
+    draft: &mut Draft,
+    roots: Roots<'_>,
+    passes: Passes,
+    strategy: Strategy,
+    known: &Mutex<Known>,
+) -> (Vec<Instruction>, Renamed) {
+    if passes.multiples {
+        share_multiples(draft, strategy, known);
+    }
+    draft.size_scratch(known);
+    schedule(draft, strategy, roots, known)
+}
+
+/// The part of assembling that strategies share which have one [`Strategy::stem`].
+#[derive(Clone)]
+pub(crate) struct Stem {
+    draft: Draft,
+}
+
+/// A program for its cost alone: its registers and blocks have no names.
+pub(crate) struct PricedProgram {
+    draft: Draft,
+    pub(crate) instructions: Vec<Instruction>,
+    pub(crate) renamed: Renamed,
+    /// By operation.
+    pub(crate) figures: Vec<OpFigures>,
+}
+
+impl Stem {
+    pub(crate) fn new(
+        recorded: &Recorded,
+        roots: &[RegisterId],
+        passes: Passes,
+        strategy: Strategy,
+        known: &Mutex<Known>,
+    ) -> Self {
+        let mut draft = recorded.draft.without_names();
+        let records = &recorded.records;
+        stem(&mut draft, records, roots, passes, strategy, known);
+        Self { draft }
+    }
+
+    /// The program under a strategy of this stem.
+    pub(crate) fn priced(
+        self,
+        roots: Roots<'_>,
+        passes: Passes,
+        strategy: Strategy,
+        known: &Mutex<Known>,
+    ) -> PricedProgram {
+        let mut draft = self.draft;
+        let (instructions, renamed) = branch(&mut draft, roots, passes, strategy, known);
+        let ops = draft.ops.iter().map(|(op, _)| op);
+        let figures = locked(known).figures(ops, &draft.registers);
+        PricedProgram {
+            draft,
+            instructions,
+            renamed,
+            figures,
+        }
+    }
+}
+
+impl PricedProgram {
+    pub(crate) fn ops(&self) -> impl Iterator<Item = &Op> {
+        self.draft.ops.iter().map(|(op, _)| op)
+    }
+
+    pub(crate) fn op(&self, place: usize) -> &Op {
+        &self.draft.ops[place].0
+    }
+
+    pub(crate) fn registers(&self) -> &[Register] {
+        &self.draft.registers
+    }
+}
+
 /// Assembles the program of a recording. Returns it and the copies that replace some of its `roots`.
 pub(crate) fn assemble(
     recorded: Recorded,
@@ -590,33 +671,29 @@ pub(crate) fn assemble(
     known: &Mutex<Known>,
 ) -> (Program, Renamed) {
     let mut draft = recorded.draft;
-    locked(known)
-        .of_recorded
-        .resize(draft.registers.len(), None);
-    if strategy.undoes(Scope::Plane) {
-        groups::separate(&mut draft);
+    let records = &recorded.records;
+    stem(
+        &mut draft,
+        records,
+        roots.registers,
+        passes,
+        strategy,
+        known,
+    );
+    let (instructions, renamed) = branch(&mut draft, roots, passes, strategy, known);
+    let parameters = recorded.parameters.iter().map(PixelWord::parameter);
+    let mut parameters: Vec<Parameter> = parameters.collect();
+    for (op, _) in &draft.ops {
+        // A register to which a number is added later may be wider than what it is loaded with.
+        if let Op::Load { parameter, target } = op {
+            let parameter = &mut parameters[*parameter as usize];
+            parameter.width = parameter.width.max(draft.registers[target.index()].width);
+        }
     }
-    if passes.needed {
-        let mut kept = roots.registers.to_vec();
-        kept.extend(recorded.records);
-        needed(&mut draft, &kept);
-    }
-    if passes.merge {
-        merge_tables(&mut draft, known);
-    }
-    if passes.multiples {
-        share_multiples(&mut draft, strategy, known);
-    }
-    draft.size_scratch(known);
-    let (instructions, renamed) = schedule(&mut draft, strategy, roots, known);
     let program = Program {
         registers: draft.registers,
         blocks: draft.blocks,
-        parameters: recorded
-            .parameters
-            .iter()
-            .map(PixelWord::parameter)
-            .collect(),
+        parameters,
         ops: draft.ops.into_iter().map(|(op, _)| op).collect(),
         instructions,
         inputs: inputs.to_vec(),

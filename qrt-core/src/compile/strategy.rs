@@ -191,7 +191,7 @@ impl Strategy {
     }
 
     /// The same strategy, but it recomputes cheap values at each use and undoes them after the last.
-    pub const fn recomputing(mut self) -> Self {
+    pub(crate) const fn recomputing(mut self) -> Self {
         self.again = Recomputed::Cheap;
         self
     }
@@ -232,6 +232,34 @@ impl Strategy {
         flags
             .iter()
             .fold(0, |number, flag| 2 * number + usize::from(*flag))
+    }
+
+    /// Number of kinds of [`Strategy::stem`].
+    pub(crate) const STEMS: usize = 2 * Self::RECORDINGS;
+
+    /// A number below [`Strategy::STEMS`] that strategies share whose programs are alike until the passes that
+    /// depend on other scopes than planes.
+    pub(crate) fn stem(self) -> usize {
+        2 * self.recording() + usize::from(self.undoes(Scope::Plane))
+    }
+
+    /// The places in `all` of strategies whose costs are found together, group by group.
+    ///
+    /// ```
+    /// use qrt_core::compile::Strategy;
+    /// let all = Strategy::all();
+    /// let groups = Strategy::groups(&all);
+    /// let mut places = groups.concat();
+    /// places.sort();
+    /// assert_eq!(places, (0..all.len()).collect::<Vec<_>>());
+    /// ```
+    pub fn groups(all: &[Self]) -> Vec<Vec<usize>> {
+        let mut groups = vec![Vec::new(); Self::STEMS];
+        for (place, strategy) in all.iter().enumerate() {
+            groups[strategy.stem()].push(place);
+        }
+        groups.retain(|group| !group.is_empty());
+        groups
     }
 
     /// All strategies worth trying. Those that recompute leave no garbage: they would leave it at each

@@ -6,8 +6,8 @@
 
 use super::{CallPart, CallStage, Inspection};
 use crate::compile::{Role, StageName};
-use qrt_circuit::RegisterId;
 use qrt_circuit::lower::Cost;
+use qrt_circuit::{Op, RegisterId};
 use std::collections::BTreeSet;
 
 /// A bundle of qubits.
@@ -111,6 +111,9 @@ impl CallDiagram {
                 let op = &inspection.whole.ops[instruction.op as usize];
                 reads.extend(op.reads().into_iter().map(place));
                 writes.extend(op.fresh().into_iter().map(place));
+                if let Op::AddInto { target, .. } = op {
+                    writes.insert(place(*target));
+                }
             }
             // A phase flip computes no register: its box writes no wire.
             let wire = |bundle: &Bundle| order.iter().position(|known| known == bundle);

@@ -20,17 +20,17 @@ pub use frame::{CallDiagram, DiagramBox, Wire};
 pub use layout::{Lifetime, RegisterLayout};
 pub use passes::PassFigures;
 pub use pixel::OraclePixel;
-pub use qrt_scene::syntax::grouped;
+pub use qrt_syntax::grouped;
 pub use stages::{CallPart, CallStage};
 
 use crate::compile::{Role, Strategy};
 use crate::oracle::{
     CallCost, LARGE, Oracle, OracleCost, OracleError, OracleName, Oracles, PARTS_OF_A_CALL,
 };
-use crate::tracer::PixelClass;
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::quantum::{Conjunction, CountingCircuit, Window};
 use qrt_circuit::{Op, Program};
+use qrt_tracer::PixelClass;
 use std::ops::Range;
 
 /// The names of the channels, in their order.
@@ -70,20 +70,22 @@ impl Inspection {
     /// # Errors
     /// As [`Oracle::new`].
     pub fn new(oracles: &Oracles<'_>, name: OracleName) -> Result<Self, OracleError> {
-        let oracle = oracles.channel(name.channel, name.class)?;
+        let mut oracle = oracles.channel(name.channel, name.class)?;
         if oracle.program.ops.len() > LARGE {
             // The inspection itself takes gigabytes.
             oracles.release();
             oracles.release_large();
         }
-        let whole = oracle.whole(0);
-        let size = lower::size(&whole);
+        let (whole, (size, layout, costs)) = oracle.with_whole(|whole| {
+            let size = lower::size(whole);
+            (size, RegisterLayout::new(whole), lower::tally(whole))
+        });
         Ok(Self {
             toffoli_depth: size.depth,
             qubits: size.qubits,
             in_use: size.in_use,
-            layout: RegisterLayout::new(&whole),
-            costs: lower::tally(&whole),
+            layout,
+            costs,
             name,
             pixel: None,
             strategy: oracles.strategy()?,

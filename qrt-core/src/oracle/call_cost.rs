@@ -1,8 +1,9 @@
 //! The cost of one call of an oracle.
 
-use super::Oracle;
-use crate::compile;
-use qrt_circuit::lower::{self, OpFigures};
+use super::{FlipSteps, Oracle};
+use crate::compile::{self, PricedProgram};
+use qrt_circuit::lower::{HeldQubits, OpFigures};
+use qrt_circuit::{BlockId, Instruction, Op, RegisterId};
 
 /// Costs of one call of an oracle: compute, compare and flip, uncompute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,24 +57,129 @@ pub(super) fn op_figures(oracle: &Oracle, known: &mut compile::Known) -> Vec<OpF
     figures
 }
 
-/// The cost of a call, by the figures of its operations.
+/// The cost of a call, by the figures of its operations and of its flip.
 pub(super) fn cost_by(oracle: &Oracle, figures: &[OpFigures]) -> CallCost {
-    let qubits = lower::most_qubits_by(&oracle.upto_flip(), |op| figures[op].borrowed);
-    CallCost {
-        qubits: u64::from(qubits),
-        toffoli: toffoli(oracle, figures),
+    let program = &oracle.program;
+    let mut held = HeldQubits::new(&program.registers, &program.inputs);
+    for instruction in &program.instructions {
+        let place = instruction.op as usize;
+        held.step(
+            &program.ops[place],
+            instruction.inverse,
+            figures[place].borrowed,
+        );
     }
+    let flip = oracle.flip_steps(0);
+    cost_upto(
+        held,
+        sum(&program.instructions, figures),
+        &flip,
+        &figures[program.ops.len()..],
+    )
+}
+
+/// A call of a channel for its cost alone.
+pub(super) struct PricedCall {
+    program: PricedProgram,
+    inputs: Vec<RegisterId>,
+    flip: FlipSteps,
+    /// By step of the flip.
+    flip_figures: Vec<OpFigures>,
+}
+
+impl PricedCall {
+    pub(super) fn new(
+        program: PricedProgram,
+        inputs: Vec<RegisterId>,
+        flip: FlipSteps,
+        known: &mut compile::Known,
+    ) -> Self {
+        let width = |id: RegisterId| program.registers()[id.index()].width;
+        let figures = flip.ops.iter().map(|op| known.alike.figures(op, width));
+        Self {
+            flip_figures: figures.collect(),
+            program,
+            inputs,
+            flip,
+        }
+    }
+
+    pub(super) fn cost(&self) -> CallCost {
+        let program = &self.program;
+        let mut held = HeldQubits::new(program.registers(), &self.inputs);
+        for instruction in &program.instructions {
+            let place = instruction.op as usize;
+            let borrowed = program.figures[place].borrowed;
+            held.step(program.op(place), instruction.inverse, borrowed);
+        }
+        let once = sum(&program.instructions, &program.figures);
+        cost_upto(held, once, &self.flip, &self.flip_figures)
+    }
+
+    /// Number of registers.
+    pub(super) fn registers(&self) -> usize {
+        self.program.registers().len()
+    }
+
+    /// The operations, those of the flip last.
+    pub(super) fn ops(&self) -> Vec<&Op> {
+        self.program.ops().chain(&self.flip.ops).collect()
+    }
+
+    /// The instructions of the whole call, and the figures of its operations.
+    pub(super) fn whole(&self) -> (Vec<Instruction>, Vec<OpFigures>) {
+        let compute = &self.program.instructions;
+        let mut figures = self.program.figures.clone();
+        let first = figures.len() as u32;
+        figures.extend(&self.flip_figures);
+        let mut whole = Vec::with_capacity(2 * compute.len() + self.flip.order.len());
+        whole.extend_from_slice(compute);
+        whole.extend(self.flip.order.iter().map(|&(step, inverse)| Instruction {
+            op: first + step,
+            inverse,
+            block: BlockId::ROOT,
+        }));
+        whole.extend(compute.iter().rev().map(|instruction| Instruction {
+            inverse: !instruction.inverse,
+            ..*instruction
+        }));
+        (whole, figures)
+    }
+}
+
+/// The cost of a call whose compute needs `once` Toffolis and leaves these qubits, with the figures of its flip.
+fn cost_upto(
+    mut held: HeldQubits<'_>,
+    once: u64,
+    flip: &FlipSteps,
+    figures: &[OpFigures],
+) -> CallCost {
+    let mut toffoli = 2 * once;
+    for &(step, inverse) in flip.order {
+        let step = step as usize;
+        held.step(&flip.ops[step], inverse, figures[step].borrowed);
+        toffoli += figures[step].costs[0].toffoli;
+    }
+    CallCost {
+        qubits: u64::from(held.most()),
+        toffoli,
+    }
+}
+
+/// The Toffolis of instructions, by the figures of their operations.
+fn sum(instructions: &[Instruction], figures: &[OpFigures]) -> u64 {
+    let all = instructions.iter();
+    all.map(|instruction| figures[instruction.op as usize].costs[0].toffoli)
+        .sum()
 }
 
 fn toffoli(oracle: &Oracle, figures: &[OpFigures]) -> u64 {
     let program = &oracle.program;
-    let toffoli = |op: usize| figures[op].costs[0].toffoli;
-    let once = program.instructions.iter();
-    let once: u64 = once
-        .map(|instruction| toffoli(instruction.op as usize))
-        .sum();
     let flip = oracle.flip_steps(0);
     let steps = flip.order.iter();
-    let steps = steps.map(|(step, _)| toffoli(program.ops.len() + *step as usize));
-    2 * once + steps.sum::<u64>()
+    let steps = steps.map(|(step, _)| {
+        let place = program.ops.len() + *step as usize;
+        figures[place].costs[0].toffoli
+    });
+    2 * sum(&program.instructions, figures) + steps.sum::<u64>()
 }

@@ -4,11 +4,11 @@
 use super::target::target;
 use super::{OracleError, OracleOptions, register_of};
 use crate::compile::{self, Builder, Label, PixelWord, Role, StageName};
-use crate::tracer::{Arith, FaceTable, Named, PixelClass, Quantity, Stage, TracerPart};
 use qrt_circuit::lower::{self, Cost};
 use qrt_circuit::{Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{Arith, FaceTable, Named, Quantity, Stage, TracerPart};
 use std::sync::Mutex;
 
 /// Most faces of a table whose address is a face's number: one number of 16 bits stands for none.
@@ -34,7 +34,7 @@ pub const MOST_FACES: usize = (1 << 16) - 1;
 /// Grover's iterate over `primitive` finds a marked face (Lanzagorta & Uhlmann, *Quantum
 /// rendering*, 2005). Searches repeated with the last result as `best` find the minimum (Durr &
 /// Hoyer 1996). The ray, the plane and the edges are those of the tracer (see
-/// [`crate::tracer::FaceTable`]), in fixed point. A face's data are rounded to the scene's fraction
+/// [`qrt_tracer::FaceTable`]), in fixed point. A face's data are rounded to the scene's fraction
 /// bits. A circuit with a constant for each face can round products with the constant as a whole,
 /// so the two may differ in a distance's last bits, and therefore at faces' edges.
 ///
@@ -77,7 +77,7 @@ impl NearestOracle {
     /// # Errors
     /// The scene has numbers that no register can hold, or more than [`MOST_FACES`] faces.
     pub fn new(scene: &ValidScene) -> Result<Option<Self>, OracleError> {
-        let stage = Stage::<1>::new(scene, [0], PixelClass::MayMeetLamp);
+        let stage = Stage::of_any_pixel(scene, [0]);
         let list = FaceTable::new(&stage);
         if list.is_empty() && !list.lacks_spheres {
             return Ok(None);
@@ -92,7 +92,7 @@ impl NearestOracle {
         let cx = &mut builder;
         let width = index_bits(list.len());
         let (primitive, face) = cx.given_index("primitive", Role::Id, width);
-        let t_max = stage.camera.t_max;
+        let t_max = stage.camera().t_max;
         let t_max = cx.t_max(t_max);
         let most = cx.operand_of(t_max).1[1];
         let units = (1_u64 << fraction) as f64;
@@ -101,7 +101,7 @@ impl NearestOracle {
         let (best_primitive, number) = cx.given_index("best.primitive", Role::Comparator, width);
 
         cx.enter(TracerPart::GenerateRay(0));
-        let ray = stage.camera.ray(cx, stage.film_bits, stage.lens.as_ref());
+        let ray = stage.primary_ray(cx);
         cx.leave();
         let named = |quantity| Named { depth: 0, quantity };
         cx.named(named(Quantity::Origin), &ray.origin);
@@ -137,6 +137,7 @@ impl NearestOracle {
             &[id, primitive, best_distance, best_primitive],
             &Mutex::default(),
         );
+        let parameters = PixelWord::of_program(&parameters, &program);
         let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
         Ok(Some(Self {
             program,

@@ -1,11 +1,11 @@
 //! All oracles of a scene, from one recording of each class of its pixels.
 
-use super::recording::{CHANNELS, PrimaryHit, Recording};
-use super::{CallCost, Oracle, OracleError, OracleOptions, call_cost};
-use crate::compile::{self, Passes, Strategy};
-use crate::tracer::{PixelClass, PixelClasses};
+use super::recording::{PrimaryHit, Recording};
+use super::{CallCost, Oracle, OracleError, OracleOptions};
+use crate::compile::{Passes, Strategy};
 use qrt_circuit::Cores;
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{PixelClass, PixelClasses};
 use std::borrow::Cow;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -21,7 +21,7 @@ pub(crate) const LARGE: usize = 1 << 20;
 ///
 /// ```
 /// use qrt_core::oracle::OracleName;
-/// use qrt_core::tracer::PixelClass;
+/// use qrt_tracer::PixelClass;
 ///
 /// let name = OracleName { channel: 1, class: PixelClass::MeetsNoLamp, of_all_pixels: false };
 /// assert_eq!(name.to_string(), "channel g, pixels that see no lamp");
@@ -58,7 +58,7 @@ impl OracleName {
 
     /// The keyword of the channel: `r`, `g` or `b`.
     pub fn channel_name(&self) -> &'static str {
-        CHANNELS[self.channel]
+        super::CHANNELS[self.channel]
     }
 }
 
@@ -90,14 +90,6 @@ pub struct OracleCost {
 }
 
 impl OracleCost {
-    /// The cost of a call of `oracle`, which has that `name`. `known` caches the figures of
-    /// operations.
-    fn counted(name: OracleName, oracle: &Oracle, known: &mut compile::Known) -> Self {
-        let figures = call_cost::op_figures(oracle, known);
-        let call = call_cost::cost_by(oracle, &figures);
-        Self { name, call }
-    }
-
     /// The one of two with more Toffolis; `self` if they are equal.
     #[must_use]
     pub fn dearer(self, other: Self) -> Self {
@@ -426,8 +418,11 @@ impl<'a> Oracles<'a> {
         let with_all = with_all && locked(&self.of[class as usize].all_channels).is_none();
         let names = self.names_of(class);
         let of_channel = |&channel: &usize| {
-            let oracle = recording.oracle_under(strategy, &[channel]);
-            OracleCost::counted(names[channel], &oracle, &mut recording.known())
+            let stem = recording.stem(strategy, channel);
+            OracleCost {
+                name: names[channel],
+                call: recording.priced(stem, strategy, channel).cost(),
+            }
         };
         // Each program is dropped once it is counted. Large ones are not held at the same time.
         let cores = if recording.operations() > LARGE {

@@ -1,4 +1,4 @@
-//! The numbers of a path that predicates read, in registers. The scene fixes the format of each
+//! The numbers of a path, in registers. The scene fixes the format of each
 //! register, in the scene's own units, which do not depend on those of the circuit.
 //!
 //! | number | format | meaning |
@@ -21,11 +21,11 @@
 //! ray meets nothing: no face and no material has the number 0.
 
 use super::DEFAULT_FRACTION;
-use crate::tracer::{PixelClass, Stage};
 use glam::DVec3;
 use qrt_circuit::format::{Bool, Format, Reg};
 use qrt_circuit::{Recorded, Recorder, RegisterId, Type};
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::Stage;
 use std::fmt;
 
 /// Most bits of a register of a path.
@@ -215,10 +215,7 @@ fn above(most: f64) -> i32 {
 impl PathFormats {
     /// The formats of a scene's paths; none if the scene is too large for 62 bits before the point.
     pub fn new(scene: &ValidScene) -> Option<Self> {
-        Self::from_stage(
-            scene,
-            &Stage::new(scene, [0, 1, 2], PixelClass::MayMeetLamp),
-        )
+        Self::from_stage(scene, &Stage::of_any_pixel(scene, [0, 1, 2]))
     }
 
     fn from_stage(scene: &ValidScene, stage: &Stage<3>) -> Option<Self> {
@@ -231,10 +228,10 @@ impl PathFormats {
         // Vertices lie within one unit of the circuit around the centre. Rounding moves them by far
         // less than another unit.
         let vertices = geometry.centre.abs().max_element() + 2.0 / scale;
-        let starts = stage.starts.iter();
+        let starts = stage.starts().iter();
         let starts = starts.map(|p| (*p / scale + geometry.centre).abs().max_element());
         let farthest = starts.fold(vertices, f64::max);
-        let t_max = stage.t_max.max(stage.camera.t_max).max(1.0) / scale;
+        let t_max = stage.t_max().max(stage.camera().t_max).max(1.0) / scale;
         let bound = stage.bound().into_iter().fold(0.0, f64::max);
         let colour = if bound > 0.0 { above(bound) } else { 0 };
         let faces = scene.surface_of_faces().len() as u32;
@@ -256,11 +253,10 @@ impl PathFormats {
         })
     }
 
-    /// Prepares the scene for paths whose `numbers` are read, of pixels of `class`. If `numbers`
+    /// Prepares the `stage` of a scene for paths whose `numbers` are read. If `numbers`
     /// contain hits of the last rays, these rays are searched for all faces. If they contain
     /// directions or distances of the primary rays, these rays have directions of length 1.
-    pub fn stage(&self, scene: &ValidScene, numbers: &[PathNumber], class: PixelClass) -> Stage<3> {
-        let mut stage = Stage::rgb(scene, class);
+    pub fn stage(&self, mut stage: Stage<3>, numbers: &[PathNumber]) -> Stage<3> {
         let rays = |asked: &dyn Fn(usize, RayNumber) -> bool| {
             numbers.iter().any(|number| match number {
                 PathNumber::Ray(depth, number) => asked(*depth, *number),

@@ -1,5 +1,6 @@
 //! A scene's program as the builder recorded it, from which the oracles of channels are assembled.
 
+use super::call_cost::PricedCall;
 use super::nearest::fits_table;
 use super::target::target;
 use super::{
@@ -7,20 +8,16 @@ use super::{
     register_of,
 };
 use crate::compile::{
-    self, Builder, NamedPlace, Passes, RealValue, Recorded, Role, Roots, Strategy,
+    self, Builder, NamedPlace, Passes, PixelWord, RealValue, Recorded, Role, Roots, Stem, Strategy,
 };
-use crate::tracer::{
-    self, Arith, FaceTable, PrimaryHitGiven, Quantity, Records, Search, Stage, trace,
-};
+use qrt_circuit::lower::QuickMap;
 use qrt_circuit::{Operand, Program, RegisterId, Type, Word};
 use qrt_scene::Nearest;
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{Arith, FaceTable, NearestSearch, PrimaryHitGiven, Quantity, Stage, trace};
 use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard};
-
-/// Names of channels, by number.
-pub(super) const CHANNELS: [&str; 5] = ["r", "g", "b", "luminance", "predicate"];
 
 /// The source of the first ray's hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +29,7 @@ pub(super) enum PrimaryHit {
 }
 
 /// The colours of a path, and the register of its primary hit if the hit is an input.
-pub(super) fn record<'a, N: tracer::NearestSearch<Builder<'a>>, const C: usize>(
+pub(super) fn record<'a, N: NearestSearch<Builder<'a>>, const C: usize>(
     scene: &ValidScene,
     builder: &mut Builder<'a>,
     stage: &Stage<C>,
@@ -134,14 +131,14 @@ impl Recording {
         let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
         let (colours, nearest) = match written.circuit.nearest {
             Nearest::Running => {
-                let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
+                let search = stage.search(1.0 / (1_u64 << fraction) as f64);
                 record(scene, &mut builder, &stage, &search, first)?
             }
             Nearest::Paper => record(
                 scene,
                 &mut builder,
                 &stage,
-                &Records::new(&stage, 1.0 / (1_u64 << fraction) as f64),
+                &stage.recorded_search(1.0 / (1_u64 << fraction) as f64),
                 first,
             )?,
         };
@@ -240,6 +237,45 @@ impl Recording {
         qubits.max().unwrap_or(0)
     }
 
+    /// The part of the programs of the channel at `place` that strategies share with `strategy`.
+    pub(super) fn stem(&self, strategy: Strategy, place: usize) -> Stem {
+        let channel = &self.known.channels[place];
+        let roots = channel_roots(std::slice::from_ref(channel));
+        let passes = self.options.passes;
+        Stem::new(&self.recorded, &roots, passes, strategy, &self.ops)
+    }
+
+    /// The call of the channel at `place` for its cost, given [`Recording::stem`].
+    pub(super) fn priced(&self, stem: Stem, strategy: Strategy, place: usize) -> PricedCall {
+        let mut channel = self.known.channels[place].clone();
+        let registers = channel_roots(std::slice::from_ref(&channel));
+        let after = self.after(strategy, std::slice::from_ref(&channel), &self.ops);
+        let roots = Roots {
+            registers: &registers,
+            after,
+        };
+        let program = stem.priced(roots, self.options.passes, strategy, &self.ops);
+        channel.count = renamed(channel.count, &program.renamed);
+        let width = |id: RegisterId| program.registers()[id.index()].width;
+        let flip = self.known.flip_of(&channel, width(self.known.comparator));
+        PricedCall::new(program, self.inputs(), flip, &mut self.known())
+    }
+
+    fn inputs(&self) -> Vec<RegisterId> {
+        let mut inputs = vec![self.known.id, self.known.comparator];
+        inputs.extend(self.known.nearest);
+        inputs
+    }
+
+    /// The qubits of the comparison of `channels`, if the strategy orders instructions by it.
+    fn after(&self, strategy: Strategy, channels: &[Channel], ops: &Mutex<compile::Known>) -> u32 {
+        if strategy.pebbles() {
+            self.flip_qubits(channels, &mut compile::locked(ops))
+        } else {
+            0
+        }
+    }
+
     fn assembled(
         &self,
         (strategy, passes): (Strategy, Passes),
@@ -250,43 +286,26 @@ impl Recording {
             .iter()
             .map(|&place| self.known.channels[place].clone())
             .collect();
-        let roots = outputs.iter().flat_map(|o| [o.colour, o.count]);
-        let roots: Vec<RegisterId> = roots.filter_map(register_of).collect();
-        let mut inputs = vec![self.known.id, self.known.comparator];
-        inputs.extend(self.known.nearest);
-        let after = if strategy.pebbles() {
-            self.flip_qubits(&outputs, &mut compile::locked(ops))
-        } else {
-            0
-        };
+        let roots = channel_roots(&outputs);
+        let inputs = self.inputs();
         let roots = Roots {
             registers: &roots,
-            after,
+            after: self.after(strategy, &outputs, ops),
         };
-        let (mut program, renamed) =
+        let (mut program, copies) =
             compile::assemble(self.recorded.clone(), roots, passes, strategy, &inputs, ops);
-        let rename = |operand: Operand| match operand {
-            Operand::Word(word) => Operand::Word(Word {
-                register: renamed
-                    .get(&word.register)
-                    .copied()
-                    .unwrap_or(word.register),
-                ..word
-            }),
-            constant @ Operand::Constant(_) => constant,
-        };
         for output in &mut outputs {
-            output.colour = rename(output.colour);
-            output.count = rename(output.count);
+            output.colour = renamed(output.colour, &copies);
+            output.count = renamed(output.count, &copies);
             if let Operand::Word(word) = output.colour {
                 let register = &mut program.registers[word.register.index()];
                 register.tag = Role::Colour.tag();
-                register.name = format!("colour.{}", CHANNELS[output.number]);
+                register.name = format!("colour.{}", super::CHANNELS[output.number]);
             }
         }
         let held = program.outputs();
         let places = self.recorded.names.iter().map(|named| NamedPlace {
-            place: named.place.renamed(|id| *renamed.get(&id).unwrap_or(&id)),
+            place: named.place.renamed(|id| *copies.get(&id).unwrap_or(&id)),
             ..*named
         });
         let places = places.filter(|named| held.contains(&named.place.register()));
@@ -301,10 +320,29 @@ impl Recording {
             }
         }
         Oracle {
+            parameters: PixelWord::of_program(&self.known.parameters, &program),
             places,
             program,
             channels: outputs,
             ..self.known.clone()
         }
+    }
+}
+
+/// The registers of the results of channels.
+fn channel_roots(channels: &[Channel]) -> Vec<RegisterId> {
+    let operands = channels.iter().flat_map(|o| [o.colour, o.count]);
+    operands.filter_map(register_of).collect()
+}
+
+/// The operand, with a copy in the place of its register if there is one.
+fn renamed(operand: Operand, copies: &QuickMap<RegisterId, RegisterId>) -> Operand {
+    let copy = |id: RegisterId| copies.get(&id).copied().unwrap_or(id);
+    match operand {
+        Operand::Word(word) => Operand::Word(Word {
+            register: copy(word.register),
+            ..word
+        }),
+        constant @ Operand::Constant(_) => constant,
     }
 }

@@ -1,12 +1,13 @@
 //! The cost of a scene's circuit under each strategy: qubits against gates.
 
 use super::oracles::{Oracles, most_expensive_of};
-use super::{CallCost, Oracle, OracleError, OracleName, call_cost};
-use crate::compile::Strategy;
-use crate::tracer::PixelClass;
+use super::recording::Recording;
+use super::{CallCost, OracleError, OracleName};
+use crate::compile::{Stem, Strategy};
 use qrt_circuit::Cores;
-use qrt_circuit::lower::{self, OpFigures};
-use std::collections::{BTreeMap, BTreeSet};
+use qrt_circuit::lower;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A way to lay out the circuit of a scene's channel, and the cost of one call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,13 +28,13 @@ impl StrategyCost {
     /// The name of the most expensive of the scene's oracles, and its cost.
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// As [`super::Oracle::new`].
     pub fn of_most_expensive(
         oracles: &Oracles<'_>,
         strategy: Strategy,
     ) -> Result<(OracleName, Self), OracleError> {
         let name = most_expensive_of(&oracles.costs_under(strategy)?).name;
-        let cost = oracles.layouts(name.channel, name.class).under(strategy)?;
+        let cost = oracles.layouts(name).under(strategy)?;
         Ok((name, cost))
     }
 }
@@ -41,21 +42,27 @@ impl StrategyCost {
 /// The costs of one of a scene's oracles under strategies: see [`Oracles::layouts`].
 pub struct StrategyCosts<'a> {
     oracles: &'a Oracles<'a>,
-    channel: usize,
-    class: PixelClass,
+    name: OracleName,
+    /// The latest stems, by [`Strategy::stem`].
+    stems: Mutex<VecDeque<(usize, Arc<Stem>)>>,
 }
+
+/// Most stems that are kept: strategies of one stem are costed one after the other.
+const STEMS: usize = 2;
 
 impl StrategyCosts<'_> {
     /// The cost under `strategy`.
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// As [`super::Oracle::new`].
     pub fn under(&self, strategy: Strategy) -> Result<StrategyCost, OracleError> {
-        let (oracle, figures) = self.priced(strategy)?;
-        let whole = oracle.whole(0);
-        let left = lower::with_ghosts(&whole);
+        let recording = self.oracles.recording(self.name.class, strategy)?;
+        let stem = self.stem(&recording, strategy);
+        let priced = recording.priced(Stem::clone(&stem), strategy, self.name.channel);
+        let (steps, figures) = priced.whole();
+        let left = lower::steps_with_ghosts(priced.registers(), &priced.ops(), &steps);
         let (mut and_measured, mut and_with_ghosts) = (0, 0);
-        for (instruction, left) in whole.instructions.iter().zip(left) {
+        for (instruction, left) in steps.iter().zip(left) {
             let costs = &figures[instruction.op as usize].costs;
             let ands = costs[usize::from(instruction.inverse)].and_measured;
             and_measured += ands;
@@ -63,43 +70,55 @@ impl StrategyCosts<'_> {
         }
         Ok(StrategyCost {
             strategy,
-            cost: call_cost::cost_by(&oracle, &figures),
+            cost: priced.cost(),
             and_measured,
             and_with_ghosts,
         })
     }
 
-    /// The oracle under `strategy`, and the figures of its operations.
-    fn priced(&self, strategy: Strategy) -> Result<(Oracle, Vec<OpFigures>), OracleError> {
-        let recording = self.oracles.recording(self.class, strategy)?;
-        let oracle = recording.oracle_under(strategy, &[self.channel]);
-        let figures = call_cost::op_figures(&oracle, &mut recording.known());
-        Ok((oracle, figures))
-    }
-
-    /// The cost of a call under `strategy`, which takes half the time of [`StrategyCosts::under`].
+    /// The cost of a call under `strategy`, without its program. Successive strategies of one of
+    /// [`Strategy::groups`] take the least time.
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// As [`super::Oracle::new`].
     pub fn call(&self, strategy: Strategy) -> Result<CallCost, OracleError> {
-        let (oracle, figures) = self.priced(strategy)?;
-        Ok(call_cost::cost_by(&oracle, &figures))
+        let recording = self.oracles.recording(self.name.class, strategy)?;
+        let stem = self.stem(&recording, strategy);
+        let priced = recording.priced(Stem::clone(&stem), strategy, self.name.channel);
+        Ok(priced.cost())
+    }
+
+    fn stem(&self, recording: &Recording, strategy: Strategy) -> Arc<Stem> {
+        let mut stems = self.stems.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = stems.iter().find(|(kind, _)| *kind == strategy.stem());
+        if let Some((_, stem)) = found {
+            return Arc::clone(stem);
+        }
+        stems.truncate(STEMS - 1);
+        let stem = Arc::new(recording.stem(strategy, self.name.channel));
+        stems.push_front((strategy.stem(), Arc::clone(&stem)));
+        stem
     }
 
     /// The cost of each strategy in `of`, computed on all cores.
     fn costs(&self, of: &[Strategy]) -> Result<Vec<(CallCost, Strategy)>, OracleError> {
-        let costs = Cores::All.map(of, 1, |&strategy| self.call(strategy));
-        let costs = costs.into_iter().zip(of);
-        costs
-            .map(|(cost, &strategy)| Ok((cost?, strategy)))
-            .collect()
+        let mut found = Vec::with_capacity(of.len());
+        for group in Strategy::groups(of) {
+            let costs = Cores::All.map(&group, 1, |&place| self.call(of[place]));
+            for (place, cost) in group.into_iter().zip(costs) {
+                found.push((place, cost?));
+            }
+        }
+        found.sort_unstable_by_key(|(place, _)| *place);
+        let found = found.into_iter().map(|(place, cost)| (cost, of[place]));
+        Ok(found.collect())
     }
 
     /// The strategy of [`Strategy::all`] with the fewest Toffolis on at most `qubits` qubits; the one with
     /// the fewest qubits if all have more.
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// As [`super::Oracle::new`].
     pub fn cheapest(&self, qubits: u64) -> Result<Strategy, OracleError> {
         let pebbled = (self.call(Strategy::PEBBLED)?, Strategy::PEBBLED);
         let kept = self.cheapest_kept(qubits)?;
@@ -187,12 +206,12 @@ impl StrategyCosts<'_> {
 }
 
 impl Oracles<'_> {
-    /// The layouts of the oracle of channel 0 red, 1 green or 2 blue, for pixels of `class`.
-    pub fn layouts(&self, channel: usize, class: PixelClass) -> StrategyCosts<'_> {
+    /// The layouts of one of the oracles.
+    pub fn layouts(&self, name: OracleName) -> StrategyCosts<'_> {
         StrategyCosts {
             oracles: self,
-            channel,
-            class,
+            name,
+            stems: Mutex::default(),
         }
     }
 
@@ -201,7 +220,7 @@ impl Oracles<'_> {
     /// once per scene, and once for each [`Oracles::of_pixel`].
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// As [`super::Oracle::new`].
     pub fn strategy(&self) -> Result<Strategy, OracleError> {
         let scene = self.scene();
         if let Some(strategy) = Strategy::from_uncompute(scene.scene().circuit.uncompute) {
@@ -237,7 +256,7 @@ fn auto(oracles: &Oracles<'_>) -> Result<Strategy, OracleError> {
         return Ok(Strategy::KEEP);
     }
     let name = most_expensive_of(&keep).name;
-    let layouts = oracles.layouts(name.channel, name.class);
+    let layouts = oracles.layouts(name);
     let figures = |strategy| -> Result<(u64, u64), OracleError> {
         let costs = oracles.costs_under(strategy)?;
         let own = costs.iter().find(|cost| cost.name == name);
@@ -271,6 +290,53 @@ fn fitting(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use qrt_scene::front::load;
+    use qrt_tracer::PixelClass;
+
+    /// The costs without programs, against the programs of the same oracles.
+    fn assert_costs(file: &str, sets: &[&str], strategies: &[Strategy]) {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes-yaml/");
+        let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+        let scene = load(format!("{root}{file}").as_ref(), &sets).unwrap().valid;
+        let oracles = Oracles::new(&scene);
+        let name = OracleName {
+            channel: 2,
+            class: PixelClass::default(),
+            of_all_pixels: false,
+        };
+        let layouts = oracles.layouts(name);
+        for &strategy in strategies {
+            let recording = oracles.recording(name.class, strategy).unwrap();
+            let oracle = recording.oracle_under(strategy, &[name.channel]);
+            let whole = oracle.whole(0);
+            let costs = lower::tally(&whole);
+            let left = lower::with_ghosts(&whole);
+            let left = costs.iter().zip(left).filter(|(_, left)| *left);
+            let expected = StrategyCost {
+                strategy,
+                cost: CallCost {
+                    qubits: lower::size(&whole).qubits.into(),
+                    toffoli: costs.iter().map(|cost| cost.toffoli).sum(),
+                },
+                and_measured: costs.iter().map(|cost| cost.and_measured).sum(),
+                and_with_ghosts: left.map(|(cost, _)| cost.and_measured).sum(),
+            };
+            let found = layouts.under(strategy).unwrap();
+            assert_eq!(found, expected, "{file} {strategy}");
+            assert_eq!(layouts.call(strategy).unwrap(), expected.cost);
+        }
+    }
+
+    #[test]
+    fn costs_are_those_of_the_programs_gates() {
+        let all = Strategy::all();
+        let some: Vec<Strategy> = all.iter().copied().step_by(11).collect();
+        assert_costs("small/shadow.yaml", &[], &some);
+        assert_costs("floor-and-light.yaml", &[], &some[40..]);
+        let ends = [Strategy::PEBBLED, Strategy::SCOPED.running_again()];
+        assert_costs("small/corner.yaml", &[], &ends);
+        assert_costs("knot.yaml", &["precision.fraction=10"], &[Strategy::SCOPED]);
+    }
 
     /// Another oracle may need more qubits than the one with the most Toffolis.
     #[test]

@@ -6,12 +6,11 @@
 //! them. `theta` is known to 104 bits: a shot after 2^40 iterations has the right probability to
 //! better than 1e-15.
 
+pub(super) mod colours;
 mod mean_phase;
 mod shifted;
-mod strata;
 
 pub use mean_phase::MeanPhaseShot;
-pub use strata::CountedStratum;
 
 use super::{Estimate, EstimatorError, MAX_ITERATIONS, Noise, id_bits};
 use crate::random::Stream;
@@ -51,7 +50,7 @@ pub struct Device<'a> {
     noise: Noise,
     stream: &'a mut Stream,
     usage: Usage,
-    known: Option<Box<strata::Known>>,
+    known: Option<Box<colours::Known>>,
 }
 
 impl<'a> Device<'a> {
@@ -101,16 +100,13 @@ impl<'a> Device<'a> {
     ) -> Estimate {
         Estimate {
             amplitude,
-            good: None,
             interval,
             confidence,
             queries: self.usage.queries - start.queries,
             shots: self.usage.shots - start.shots,
             depth: self.usage.depth,
             rounds: self.usage.rounds - start.rounds,
-            ln_likelihood: None,
-            candidates: None,
-            strata: 1,
+            ..Estimate::UNMEASURED
         }
     }
 

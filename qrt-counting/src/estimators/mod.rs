@@ -40,7 +40,8 @@ mod windowed;
 
 pub use abrams_williams::AbramsWilliams;
 pub use bayes::{AdaptiveBayes, PhaseMean, RandomDepth};
-pub use device::{CountedStratum, CountingProblem, Device, MeanPhaseShot, Usage};
+pub use device::colours::CountedStratum;
+pub use device::{CountingProblem, Device, MeanPhaseShot, Usage};
 pub use error::{EstimatorError, MAX_ITERATIONS};
 pub use exact::Exact;
 pub use iterative::Iterative;
@@ -87,6 +88,23 @@ pub struct Estimate {
     pub strata: u32,
 }
 
+impl Estimate {
+    /// The estimate 0 of the whole comparator, without a measurement.
+    const UNMEASURED: Self = Self {
+        amplitude: 0.0,
+        good: None,
+        interval: (0.0, 1.0),
+        confidence: DEFAULT_CONFIDENCE,
+        queries: 0,
+        shots: 0,
+        depth: 0,
+        rounds: 0,
+        ln_likelihood: None,
+        candidates: None,
+        strata: 1,
+    };
+}
+
 /// Number of qubits of an index among `total`, which is at least 1.
 fn id_bits(total: u64) -> u32 {
     u64::BITS - (total - 1).leading_zeros()
@@ -117,21 +135,12 @@ pub trait AmplitudeEstimator {
 ///
 /// # Errors
 ///
-/// A setting out of range, or strata with an estimator that cannot count them.
+/// A setting that is out of range, or that the estimator does not support.
 pub fn estimator(
     name: Estimator,
     settings: &Settings,
 ) -> Result<Box<dyn AmplitudeEstimator + Send + Sync>, EstimatorError> {
-    settings.check()?;
-    if let Some(strata @ 2..) = settings.strata
-        && !name.counts_strata()
-        && name != Estimator::Exact
-    {
-        return Err(EstimatorError::Strata {
-            estimator: name,
-            strata,
-        });
-    }
+    settings.check_for(name)?;
     Ok(match name {
         Estimator::Exact => Box::new(Exact),
         Estimator::Paper | Estimator::Sine => Box::new(WindowedCounting::new(name, settings)?),
@@ -162,11 +171,9 @@ pub fn estimator(
 ///
 /// ```
 /// use qrt_counting::{estimators::{CountingProblem, estimate}, random::Stream};
-/// use qrt_circuit::quantum::Window;
 /// use qrt_scene::{Counting, Estimator};
 /// let counting = Counting {
-///     phase_bits: 8, repetitions: 3, window: Window::Rect, estimator: Estimator::Paper,
-///     strata: None, error: None,
+///     phase_bits: 8, repetitions: 3, estimator: Estimator::Paper, ..Counting::default()
 /// };
 /// let problem = CountingProblem { good: 300, total: 1000 };
 /// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;

@@ -3,7 +3,7 @@
 use super::{EstimatorError, Noise};
 use crate::{CountingError, MAX_PHASE_BITS, MAX_REPETITIONS};
 use qrt_circuit::quantum::Window;
-use qrt_scene::Counting;
+use qrt_scene::{Counting, Estimator};
 
 /// The default confidence of intervals.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;
@@ -69,6 +69,29 @@ impl Settings {
             error,
             ..Self::from_counting(counting)?
         })
+    }
+
+    /// These settings, for counting the whole comparator at once, or good indices without one.
+    #[must_use]
+    pub fn of_whole(self) -> Self {
+        Self {
+            strata: Some(1),
+            ..self
+        }
+    }
+
+    /// Checks the settings for the estimator called `name`.
+    pub(super) fn check_for(&self, name: Estimator) -> Result<(), EstimatorError> {
+        self.check()?;
+        match self.strata {
+            Some(strata @ 2..) if !name.counts_strata() && name != Estimator::Exact => {
+                Err(EstimatorError::Strata {
+                    estimator: name,
+                    strata,
+                })
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(crate) fn check(&self) -> Result<(), EstimatorError> {

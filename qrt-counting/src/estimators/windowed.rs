@@ -74,8 +74,7 @@ impl WindowedCounting {
             depth,
             rounds: 1,
             ln_likelihood: Some(likeliest.ln_likelihood),
-            candidates: None,
-            strata: 1,
+            ..Estimate::UNMEASURED
         })
     }
 

@@ -3,9 +3,9 @@
 use super::*;
 use qrt_core::inspect::{CallDiagram, CallPart, Inspection, grouped};
 use qrt_core::oracle::Oracles;
-use qrt_core::tracer::PixelClass;
 use qrt_drawing::escaped;
 use qrt_scene::front::parse;
+use qrt_tracer::PixelClass;
 
 /// A lamp over a floor: two rays for each path.
 const SCENE: &str = "

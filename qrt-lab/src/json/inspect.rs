@@ -156,7 +156,7 @@ fn registers(inspection: &Inspection) -> Vec<Value> {
 }
 
 /// Returns the cost of one of a scene's oracles.
-pub fn oracle_cost(cost: &OracleCost) -> Value {
+pub(crate) fn oracle_cost(cost: &OracleCost) -> Value {
     json!({
         "channel": cost.name.channel_name(),
         "class": cost.name.class_name(),

@@ -12,7 +12,8 @@ mod trade;
 mod verify;
 
 pub use count::count;
-pub use inspect::{cost, inspect, oracle_cost, pixel_counts};
+pub(crate) use inspect::oracle_cost;
+pub use inspect::{cost, inspect, pixel_counts};
 pub use pareto::pareto;
 pub use plan::plan;
 pub use simulate::{simulate, simulate_mean_phase};

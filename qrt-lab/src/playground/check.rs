@@ -2,7 +2,7 @@
 
 use super::Answer;
 use qrt_scene::front::Loaded;
-use qrt_scene::syntax::{Report, Reported};
+use qrt_syntax::{Report, Reported};
 
 /// Answers the problems of a scene, or its warnings and its properties. `from` and `to` count
 /// UTF-16 units, as scripts do. A problem without a place is put at the start of the text.

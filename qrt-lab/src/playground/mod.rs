@@ -45,8 +45,8 @@ use qrt_runtime::render::RenderError;
 use qrt_runtime::sample::SampleError;
 use qrt_scene::front::{Files, Loaded, parse_with};
 use qrt_scene::sampling::SamplingError;
-use qrt_scene::syntax::{Problem, Report};
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::{Problem, Report};
 
 /// The name of the scene's text in error messages.
 const NAME: &str = "scene.yaml";

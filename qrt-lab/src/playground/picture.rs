@@ -2,7 +2,6 @@
 
 use super::{Answer, Refused};
 use qrt_core::oracle::Oracles;
-use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
 use qrt_counting::{Comparators, CountingError};
 use qrt_runtime::models::{MachineOptions, Model, path_machines};
@@ -10,6 +9,7 @@ use qrt_runtime::path_machines::PathMachine;
 use qrt_runtime::sample::{Countable, Draws, Tally, tallies};
 use qrt_runtime::workers::Workers;
 use qrt_scene::{Counting, Estimator};
+use qrt_tracer::ByClass;
 use std::ops::Range;
 
 /// The estimator that is used if the scene's own is `exact`.

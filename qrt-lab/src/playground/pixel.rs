@@ -5,7 +5,7 @@ use qrt_core::oracle::Oracles;
 use qrt_counting::{Comparators, PhaseDistribution};
 use qrt_runtime::models::{MachineError, MachineOptions, Model, path_machines};
 use qrt_runtime::path_machines::Traced;
-use qrt_runtime::predicates::{TracedPath, trace_path_of};
+use qrt_runtime::traced_path::{TracedPath, trace_path_of};
 use qrt_scene::Window;
 use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;

@@ -71,7 +71,7 @@ fn rendered(model: Model, estimator: &str) -> Vec<f64> {
 #[test]
 fn pictures_are_those_that_are_rendered_whoever_shares_them() {
     for (number, model) in [(0.0, Model::Real), (1.0, Model::Fixed)] {
-        for (parts, estimator) in [(1, "adaptive-bayes"), (3, "sine")] {
+        for (parts, estimator) in [(1, "adaptive-bayes"), (3, "sine"), (2, "auto")] {
             let [exact, counted] = shown(number, parts, estimator);
             for (found, expected) in exact.iter().zip(rendered(model, "exact")) {
                 assert!(

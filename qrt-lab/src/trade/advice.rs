@@ -124,58 +124,10 @@ impl<'a> Change<'a> {
 
 /// The options of the command line that change `own` into `other`; `None` if nothing changes.
 fn sets(own: &Setting, other: &Setting) -> Option<String> {
-    let strata = |setting: &Setting| setting.strata.map_or("auto".into(), |n| n.to_string());
-    let keys = [
-        (
-            "counting.estimator",
-            own.estimator.to_string(),
-            other.estimator.to_string(),
-        ),
-        (
-            "counting.phase_bits",
-            own.phase_bits.to_string(),
-            other.phase_bits.to_string(),
-        ),
-        (
-            "counting.repetitions",
-            own.repetitions.to_string(),
-            other.repetitions.to_string(),
-        ),
-        ("counting.strata", strata(own), strata(other)),
-        (
-            "sampling.sequence",
-            own.sequence.to_string(),
-            other.sequence.to_string(),
-        ),
-        (
-            "sampling.path_bits",
-            own.path_bits.to_string(),
-            other.path_bits.to_string(),
-        ),
-        (
-            "precision.fraction",
-            own.fraction.to_string(),
-            other.fraction.to_string(),
-        ),
-        (
-            "comparator.bits",
-            own.comparator_bits.to_string(),
-            other.comparator_bits.to_string(),
-        ),
-        (
-            "circuit.uncompute",
-            own.uncompute.to_string(),
-            other.uncompute.to_string(),
-        ),
-        (
-            "circuit.nearest",
-            own.nearest.to_string(),
-            other.nearest.to_string(),
-        ),
-    ];
-    let changed = keys.into_iter().filter(|(_, own, other)| own != other);
-    let changed: Vec<String> = changed
-        .map(|(key, _, other)| format!("--set {}", shell::word(&format!("{key}={other}"))))
+    let keys = own.keys().into_iter().zip(other.keys());
+    let changed: Vec<String> = keys
+        .filter(|(own, other)| own != other)
+        .map(|(_, (key, other))| format!("--set {}", shell::word(&format!("{key}={other}"))))
         .collect();
     (!changed.is_empty()).then(|| changed.join(" "))
 }

@@ -280,7 +280,7 @@ impl<'a> Bench<'a> {
         total: u64,
     ) -> Result<Estimated, TradeError> {
         let start = Instant::now();
-        let by_strata = parameters.counting.reads_levels();
+        let by_level = parameters.counting.reads_levels();
         let draws = Draws {
             counting: &parameters.counting,
             scales: bounds,
@@ -290,7 +290,7 @@ impl<'a> Bench<'a> {
             count: self.effort.draws,
             total,
         };
-        let countable = if by_strata {
+        let countable = if by_level {
             Countable::Levels(&traced.levels)
         } else {
             Countable::Whole(&traced.good)

@@ -8,7 +8,7 @@ use qrt_runtime::models::MachineError;
 use qrt_runtime::sample::SampleError;
 use qrt_runtime::workers::ThreadsError;
 use qrt_scene::sampling::SamplingError;
-use qrt_scene::syntax::Problem;
+use qrt_syntax::Problem;
 use std::io;
 use std::path::PathBuf;
 

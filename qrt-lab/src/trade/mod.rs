@@ -38,9 +38,7 @@
 //! `trade.csv` begins with a line that names the values that its rows depend on: version, build,
 //! scene hash, seed, pixels, quick. Its columns:
 //!
-//! * the setting: `sweep` (the parameter that the row is about), `model`, `estimator`,
-//!   `phase_bits`, `repetitions`, `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`,
-//!   `uncompute`, `nearest`, `strata`;
+//! * the setting: see [`Setting::values`];
 //! * its price: `queries` of a pixel, all channels together, on average; `toffoli` and `qubits` of
 //!   one call of the most expensive channel's oracle, as `qrt inspect` counts them (a phase
 //!   register's own qubits are not among them); `toffoli_x_queries`;

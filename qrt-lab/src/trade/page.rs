@@ -3,7 +3,6 @@
 use super::figure::Figure;
 use super::fronts::{PRICES, candidates, front};
 use super::preview::Preview;
-use super::summary::differs;
 use super::table::{ERROR_NAMES, Row};
 use super::{Band, Sweep, Trade};
 use super::{advice, rivals};
@@ -100,7 +99,7 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
         let open = if number == 0 { " open" } else { "" };
         let _ = writeln!(out, "<details{open}><summary>By {title}</summary>");
         let best = front(&rows, price);
-        table(&mut out, &best, |row| differs(&row.setting));
+        table(&mut out, &best, |row| row.setting.described());
         out.push_str("</details>\n");
     }
     out.push_str("<h2>All settings</h2>\n");
@@ -112,11 +111,11 @@ pub(super) fn html(trade: &Trade, preview: Option<&Preview>, figures: &[Figure])
             sweep.name(),
             rows.len()
         );
-        table(&mut out, &rows, |row| value(sweep, row));
+        table(&mut out, &rows, |row| row.setting.swept(sweep));
         out.push_str("</details>\n");
     }
     for (setting, why) in &trade.left_out {
-        let what = marked(&format!("{}: {why}", differs(setting)));
+        let what = marked(&format!("{}: {why}", setting.described()));
         let _ = writeln!(out, "<p>Left out: {what}.</p>");
     }
     out.push_str("</main>\n</body>\n</html>\n");
@@ -194,7 +193,7 @@ fn own(out: &mut String, row: &Row) {
         "<h2>The scene as it is</h2>\n<p>{}: {} queries of a pixel, each of {} Toffoli gates on {} \
          qubits.</p>\n{}<table class=\"own\">\n<tr><th class=\"left\">error</th><th>RMSE<br>95&nbsp;% \
          interval</th></tr>",
-        escaped(&differs(&row.setting)),
+        escaped(&row.setting.described()),
         grouped(row.queries.round() as u64),
         grouped(row.cost.toffoli),
         grouped(row.cost.qubits),
@@ -211,37 +210,6 @@ fn own(out: &mut String, row: &Row) {
         );
     }
     out.push_str("</table></div>\n");
-}
-
-/// The values that `sweep` changes, as text.
-fn value(sweep: Sweep, row: &Row) -> String {
-    let setting = &row.setting;
-    match sweep {
-        Sweep::Scene => "as it is".to_owned(),
-        Sweep::Counting | Sweep::BesideRivals => {
-            format!("{} t={}", setting.estimator, setting.phase_bits)
-        }
-        Sweep::Repetitions => format!(
-            "{} t={} B={}",
-            setting.estimator, setting.phase_bits, setting.repetitions
-        ),
-        Sweep::Strata => match setting.strata {
-            Some(strata) => format!("{strata}"),
-            None => "auto".to_owned(),
-        },
-        Sweep::Comparator => format!("{} bits", setting.comparator_bits),
-        Sweep::Fraction => format!("{} bits", setting.fraction),
-        Sweep::Paths => format!("{} 2^{}", setting.sequence, setting.path_bits),
-        Sweep::Circuit => {
-            format!(
-                "uncompute: {}, nearest: {}",
-                setting.uncompute, setting.nearest
-            )
-        }
-        Sweep::Model => setting.model.name().to_owned(),
-        Sweep::Depth => format!("{} rays", setting.depths),
-        Sweep::RandomPaths | Sweep::ClassicalNet => format!("2^{} paths", setting.path_bits),
-    }
 }
 
 fn table(out: &mut String, rows: &[&Row], name: impl Fn(&Row) -> String) {

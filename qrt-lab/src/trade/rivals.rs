@@ -11,12 +11,12 @@ use super::sweep::most_paths;
 use super::table::{COUNTING, Row, TOTAL};
 use super::{Band, Trade, pareto};
 use qrt_core::oracle::CallCost;
-use qrt_core::tracer::{PixelClass, PixelClasses};
 use qrt_drawing::{Drawn, Fit, Plot, PlotAxis};
 use qrt_runtime::path_machines::Real;
 use qrt_runtime::sample::{self, Means, SampleError, Sum};
 use qrt_runtime::workers::Workers;
 use qrt_scene::{Estimator, Lights, Sampling, Sequence};
+use qrt_tracer::{PixelClass, PixelClasses};
 use rayon::prelude::*;
 use std::time::Instant;
 

@@ -4,8 +4,10 @@ use qrt_core::oracle::DEFAULT_FRACTION;
 use qrt_runtime::models::Model;
 use qrt_runtime::named;
 use qrt_scene::sampling::Square;
-use qrt_scene::valid::{Parameters, most_strata};
-use qrt_scene::{Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute};
+use qrt_scene::valid::Parameters;
+use qrt_scene::{
+    Comparator, Counting, DepthSampling, Estimator, Map, Nearest, Sampling, Sequence, Uncompute,
+};
 
 named! {
     /// The parameter that a row is about.
@@ -120,7 +122,10 @@ impl Setting {
         }
     }
 
-    /// The values of the setting, in the order of the first columns of `trade.csv`.
+    /// The values of the setting, in the order of the first columns of `trade.csv`: `sweep` (the
+    /// parameter that the row is about), `model`, `estimator`, `phase_bits`, `repetitions`,
+    /// `sequence`, `path_bits`, `depths`, `fraction`, `comparator_bits`, `uncompute`, `nearest`,
+    /// `strata`.
     pub fn values(&self) -> [String; KEY.len()] {
         [
             self.sweep.name().to_owned(),
@@ -135,14 +140,82 @@ impl Setting {
             self.comparator_bits.to_string(),
             self.uncompute.to_string(),
             self.nearest.to_string(),
-            (self.strata()).map_or_else(|| "auto".to_owned(), |strata| strata.to_string()),
+            number_or_auto(self.strata()),
         ]
+    }
+
+    /// The keys of the scene's YAML that a setting decides, with their values.
+    pub(super) fn keys(&self) -> [(&'static str, String); 10] {
+        [
+            ("counting.estimator", self.estimator.to_string()),
+            ("counting.phase_bits", self.phase_bits.to_string()),
+            ("counting.repetitions", self.repetitions.to_string()),
+            ("counting.strata", number_or_auto(self.strata)),
+            ("sampling.sequence", self.sequence.to_string()),
+            ("sampling.path_bits", self.path_bits.to_string()),
+            ("precision.fraction", self.fraction.to_string()),
+            ("comparator.bits", self.comparator_bits.to_string()),
+            ("circuit.uncompute", self.uncompute.to_string()),
+            ("circuit.nearest", self.nearest.to_string()),
+        ]
+    }
+
+    /// The values that `sweep` changes, as text.
+    pub(super) fn swept(&self, sweep: Sweep) -> String {
+        let Self {
+            estimator,
+            phase_bits,
+            repetitions,
+            ..
+        } = self;
+        match sweep {
+            Sweep::Scene => "as it is".to_owned(),
+            Sweep::Counting | Sweep::BesideRivals => format!("{estimator} t={phase_bits}"),
+            Sweep::Repetitions => format!("{estimator} t={phase_bits} B={repetitions}"),
+            Sweep::Strata => number_or_auto(self.strata),
+            Sweep::Comparator => format!("{} bits", self.comparator_bits),
+            Sweep::Fraction => format!("{} bits", self.fraction),
+            Sweep::Paths => format!("{} 2^{}", self.sequence, self.path_bits),
+            Sweep::Circuit => format!("uncompute: {}, nearest: {}", self.uncompute, self.nearest),
+            Sweep::Model => self.model.name().to_owned(),
+            Sweep::Depth => format!("{} rays", self.depths),
+            Sweep::RandomPaths | Sweep::ClassicalNet => format!("2^{} paths", self.path_bits),
+        }
+    }
+
+    /// The setting as text, without its sweep, model and number of depths.
+    pub(super) fn described(&self) -> String {
+        format!(
+            "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, uncompute: {}, nearest: {}",
+            self.estimator,
+            self.phase_bits,
+            self.repetitions,
+            match self.strata {
+                Some(strata @ 2..) => format!(" {strata} strata"),
+                _ => String::new(),
+            },
+            self.sequence,
+            self.path_bits,
+            self.comparator_bits,
+            self.fraction,
+            self.uncompute,
+            self.nearest,
+        )
+    }
+
+    /// Maximum number of strata of the setting's comparator.
+    pub(super) fn most_strata(&self) -> u32 {
+        let comparator = Comparator {
+            bits: self.comparator_bits,
+            ..Comparator::default()
+        };
+        comparator.most_strata()
     }
 
     /// Number of strata, limited by the estimator and the comparator.
     fn strata(&self) -> Option<u32> {
         if self.estimator.counts_strata() {
-            let most = most_strata(self.comparator_bits);
+            let most = self.most_strata();
             self.strata.map(|strata| strata.min(most))
         } else {
             Some(1)
@@ -199,6 +272,11 @@ impl Setting {
             }
         }
     }
+}
+
+/// A number, or `auto` for a number that the estimator chooses.
+fn number_or_auto(number: Option<u32>) -> String {
+    number.map_or_else(|| "auto".to_owned(), |number| number.to_string())
 }
 
 /// Number of bits of a coordinate, if the scene has a lattice or lacks the coordinate.

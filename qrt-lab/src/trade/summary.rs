@@ -2,7 +2,6 @@
 
 use super::figures::estimators;
 use super::fronts::{PRICES, candidates, front};
-use super::setting::Setting;
 use super::table::{COUNTING, ERRORS, TOTAL};
 use super::{Sweep, Trade};
 use super::{advice, rivals};
@@ -60,14 +59,14 @@ pub(super) fn text(trade: &Trade) -> String {
             "  {:>9.0}  {:>7.2} %  {}",
             row.queries,
             100.0 * row.errors[TOTAL].value,
-            differs(&row.setting)
+            row.setting.described()
         );
     }
     for line in rivals::sentences(trade) {
         let _ = writeln!(out, "{line}");
     }
     for (setting, why) in &trade.left_out {
-        let _ = writeln!(out, "left out: {}: {why}", differs(setting));
+        let _ = writeln!(out, "left out: {}: {why}", setting.described());
     }
     out
 }
@@ -85,24 +84,4 @@ fn slopes(trade: &Trade) -> Vec<String> {
     };
     let names = estimators(trade, Sweep::Counting).into_iter();
     names.filter_map(slope).collect()
-}
-
-/// A setting as text, without its sweep, model and number of depths.
-pub(super) fn differs(setting: &Setting) -> String {
-    format!(
-        "{} t={} B={}{}, {} 2^{} paths, {} comparator bits, {} fraction bits, uncompute: {}, nearest: {}",
-        setting.estimator,
-        setting.phase_bits,
-        setting.repetitions,
-        match setting.strata {
-            Some(strata @ 2..) => format!(" {strata} strata"),
-            _ => String::new(),
-        },
-        setting.sequence,
-        setting.path_bits,
-        setting.comparator_bits,
-        setting.fraction,
-        setting.uncompute,
-        setting.nearest,
-    )
 }

@@ -5,7 +5,7 @@
 
 use super::setting::{Setting, Sweep};
 use qrt_runtime::models::Model;
-use qrt_scene::valid::{MAX_NET_DEPTHS, Parameters, most_strata};
+use qrt_scene::valid::{MAX_NET_DEPTHS, Parameters};
 use qrt_scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
 
 /// Number of times that a register is halved before it is repeated, to make up for up to 32
@@ -119,7 +119,7 @@ fn strata(scene: Setting) -> impl Iterator<Item = Setting> {
     } else {
         Estimator::AdaptiveBayes
     };
-    let most = most_strata(scene.comparator_bits);
+    let most = scene.most_strata();
     let numbers = [1, 2, 3, 4, 6].into_iter().filter(move |n| *n <= most);
     let all = numbers.map(Some).chain([None]);
     all.map(move |strata| Setting {

@@ -104,10 +104,12 @@ fn parts_of_the_error_fall_with_their_own_parameter_alone() {
     for other in [paths, comparators, width, depth] {
         assert!(same(&error(Sweep::Counting, other)), "{other}");
     }
-    let sine = measured.rows_of(Sweep::Counting);
-    let sine = sine.filter(|row| row.setting.estimator == Estimator::Sine);
-    let sine: Vec<f64> = sine.map(|row| row.errors[counting].value).collect();
-    assert!(falls(&sine), "{sine:?}");
+    for name in [Estimator::Sine, Estimator::Auto] {
+        let rows = measured.rows_of(Sweep::Counting);
+        let rows = rows.filter(|row| row.setting.estimator == name);
+        let errors: Vec<f64> = rows.map(|row| row.errors[counting].value).collect();
+        assert!(falls(&errors), "{name}: {errors:?}");
+    }
     let net = measured.rows_of(Sweep::Paths);
     let net = net.filter(|row| row.setting.sequence == Sequence::DigitalNet);
     let net: Vec<f64> = net.map(|row| row.errors[paths].value).collect();

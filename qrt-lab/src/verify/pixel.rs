@@ -4,7 +4,6 @@ use super::VerifyError;
 use qrt_core::compile::Strategy;
 use qrt_core::inspect::OraclePixel;
 use qrt_core::oracle::{Oracle, OracleError, OracleOptions};
-use qrt_core::tracer::PixelClasses;
 use qrt_counting::Comparators;
 use qrt_runtime::path_machines::{OracleMachine, Real};
 use qrt_scene::valid::ValidScene;
@@ -92,12 +91,11 @@ pub fn pixel_counts(
     if path_bits > MOST_PATH_BITS || work > MOST_WORK {
         return Ok(None);
     }
-    let class = PixelClasses::new(scene).class(pixel.place);
     let channel = &oracle.channels[0];
     if channel.number > 2 {
         return Ok(None);
     }
-    let real = Real::of_class(scene, pixel.seed, class)?;
+    let real = Real::of_pixel(scene, pixel.seed, pixel.place)?;
     let comparators = Comparators::new(channel.scale, scene.scene().comparator)?;
     let mut in_real = Vec::new();
     real.trace(&[pixel.place], |block| {

@@ -3,7 +3,9 @@
 use super::lines::{self, Line};
 use super::names::Names;
 use super::repeats::Repeats;
-use qrt_circuit::{Argument, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, Word};
+use qrt_circuit::{
+    Argument, Bit, BlockId, Instruction, Op, Operand, Program, RegisterId, When, Word,
+};
 use qrt_core::oracle::{Channel, Oracle};
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -177,13 +179,21 @@ impl<'a> Coder<'a> {
         let mut effect = Effect::default();
         match statement {
             Statement::Block(_) | Statement::Apply => {}
+            Statement::Compute(op) | Statement::Undo(op)
+                if let Op::AddInto { target, .. } = self.op(op) =>
+            {
+                effect.read = self.op(op).reads();
+                effect.read.retain(|register| register != target);
+                effect.taken = vec![*target];
+                effect.made = vec![*target];
+            }
             Statement::Compute(op) => {
                 effect.read = self.op(op).reads();
-                effect.read.retain(|register| *register != self.id);
                 effect.made = self.op(op).targets();
             }
             Statement::Undo(op) => effect.taken = self.op(op).targets(),
         }
+        effect.read.retain(|register| *register != self.id);
         effect
     }
 
@@ -235,6 +245,22 @@ impl<'a> Coder<'a> {
                 format!("let ({made}) = repeated_{number}(__m, __id, {read}{taken});")
             }
             Some(Statement::Block(block)) => format!("__m.block(BlockId({}));", block.0),
+            Some(statement @ (Statement::Compute(op) | Statement::Undo(op)))
+                if let &Op::AddInto {
+                    a,
+                    subtract,
+                    when: When::Always,
+                    target,
+                } = self.op(*op) =>
+            {
+                let target = self.names.variable(target);
+                let subtract = subtract != matches!(statement, Statement::Undo(_));
+                let a = self.operand(a);
+                format!(
+                    "let mut {target} = {target}; \
+                     __m.add_into(&mut {target}, {a}, {subtract}, When::Always);"
+                )
+            }
             Some(Statement::Compute(op)) => {
                 let op = self.op(*op);
                 let targets = self.targets(op);
@@ -313,8 +339,7 @@ impl<'a> Coder<'a> {
     }
 
     /// Returns the call that computes an out-of-place operation: a method of the operation's name
-    /// takes the declarations of its targets, its operands, and its constants. Compute has no
-    /// operations in place, since a copy could not undo their results.
+    /// takes the declarations of its targets, its operands, and its constants.
     fn call(&self, op: &Op) -> String {
         let declared = |target: &RegisterId| format!("&R[{}]", target.0);
         let targets: Vec<String> = op.targets().iter().map(declared).collect();

@@ -1,9 +1,10 @@
 //! The layout: the places of a path's numbers, ray by ray, with their formats as types.
 
+use super::names::beside;
 use qrt_circuit::{Bit, Word};
 use qrt_core::compile::{NamedPlace, ValuePlace};
 use qrt_core::oracle::Oracle;
-use qrt_core::tracer::Quantity;
+use qrt_tracer::Quantity;
 use std::fmt::Write as _;
 
 struct Component {
@@ -25,6 +26,7 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle
     let mut values = String::new();
     for depth in 0..depths {
         let quantities = quantities(oracle, depth);
+        let ray = beside(scene, &format!("Ray{depth}"));
         let what = match depth {
             0 => "the primary ray".to_owned(),
             depth => format!("ray {depth}"),
@@ -36,26 +38,28 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, oracle: &Oracle
                 ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
             )]
             #[allow(dead_code, reason = \"an author reads some of them only\")]
-            {public} struct {scene}Ray{depth} {{"
+            {public} struct {ray} {{"
         );
         let mut value = String::new();
         for quantity in &quantities {
             field(out, &mut value, scene, quantity);
         }
         out.push_str("}\n");
-        let _ = writeln!(fields, "/// Of {what}.\npub ray{depth}: {scene}Ray{depth},");
-        let _ = write!(values, "ray{depth}: {scene}Ray{depth} {{ {value} }}, ");
+        let _ = writeln!(fields, "/// Of {what}.\npub ray{depth}: {ray},");
+        let _ = write!(values, "ray{depth}: {ray} {{ {value} }}, ");
     }
+    let layout = beside(scene, "LAYOUT");
     let _ = writeln!(
         out,
         "/// Registers of the numbers of a path of [`{scene}`].
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
         )]
+        #[allow(non_camel_case_types, reason = \"messages show the name that an author writes\")]
         #[allow(dead_code, reason = \"an author reads some of them only\")]
-        {public} struct {scene}Layout {{ {fields} }}"
+        {public} struct {layout} {{ {fields} }}"
     );
-    format!("{scene}Layout {{ {values} }}")
+    format!("{layout} {{ {values} }}")
 }
 
 fn quantities(oracle: &Oracle, depth: usize) -> Vec<Named> {

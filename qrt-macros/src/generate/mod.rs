@@ -16,13 +16,12 @@ mod tests;
 
 pub(crate) use paths::about;
 
-use names::Names;
+use names::{Names, beside};
 use proc_macro2::TokenStream;
-use qrt_core::oracle::{CallCost, Oracle, Oracles, check_budget};
-use qrt_core::tracer::PixelClass;
+use qrt_core::oracle::{CallCost, Oracle, OracleOptions, Oracles, check_budget};
 use qrt_scene::Scene;
-use qrt_scene::syntax::Problem;
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::Problem;
 use std::fmt::Write as _;
 
 /// The most operations of a circuit that becomes code. The code of more would take minutes to
@@ -76,8 +75,8 @@ fn text(
     (labels, valid): (&[Option<String>], &ValidScene),
 ) -> Result<String, Vec<Problem>> {
     let oracles = Oracles::new(valid);
-    // Of pixels that may see a lamp, and so for all pixels.
-    let class = PixelClass::default();
+    // The class that serves all pixels.
+    let class = OracleOptions::default().class;
     let recorded = oracles.with_costs(class);
     let (oracle, [red, green, blue]) = recorded.map_err(|error| vec![error.problem()])?;
     keep_budget(&oracles)?;
@@ -114,19 +113,20 @@ fn text(
             use ::qrt::scene::sampling::{{Axis::{{U, V}}, Coordinate, Square::{{Light, Ray}}}};
             use ::qrt::circuit::{{
                 Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag,
-                Type, Word,
+                Type, When, Word,
             }};
             use ::qrt::core::oracle::Channel;
             use ::qrt::core::oracle::compiled::{{
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             }};
-            use ::qrt::core::tracer::{{Named, Quantity}};"
+            use ::qrt::tracer::{{Named, Quantity}};"
         );
+        let ty = beside(scene, "LAYOUT");
         let _ = writeln!(
             out,
             "impl __Scene {{
                 /// Registers of the numbers of a path, ray by ray.
-                {public} const LAYOUT: {scene}Layout = {layout};
+                {public} const LAYOUT: {ty} = {layout};
             }}"
         );
         data::write(&mut out, &oracle);

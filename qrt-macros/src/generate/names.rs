@@ -32,6 +32,14 @@ impl Names {
     }
 }
 
+/// Returns `name` as the name of a type beside the scene's: another one if the scene has that name.
+pub(super) fn beside(scene: &str, name: &str) -> String {
+    if scene == name {
+        return format!("{name}_");
+    }
+    name.to_owned()
+}
+
 /// Returns names of fields for an author's names, in their order, all different. A character that
 /// is no letter, digit or `_` becomes `_`, and a name that is already taken gets a number.
 pub(super) fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {

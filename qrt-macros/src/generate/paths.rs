@@ -1,7 +1,7 @@
 //! The registers of a path, with their formats as types, and the names of its faces and materials:
 //! the vocabulary of predicates.
 
-use super::names::identifiers;
+use super::names::{beside, identifiers};
 use qrt_core::oracle::paths::{PathFormats, PathNumber, RayNumber};
 use qrt_scene::valid::ValidScene;
 use std::fmt::Write as _;
@@ -26,6 +26,7 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, valid: &ValidSc
     let colour = text(PathNumber::Colour(0));
     let [point, unit, distance, face, material] =
         KINDS.map(|number| text(PathNumber::Ray(0, number)));
+    let path = beside(scene, "PATH");
     let mut fields = String::new();
     let mut made = String::new();
     for ray in 0..formats.rays {
@@ -49,22 +50,23 @@ pub(super) fn write(out: &mut String, scene: &str, public: &str, valid: &ValidSc
 
         /// The registers of a path of [`{scene}`], which predicates read.
         #[::core::prelude::v1::derive(::core::fmt::Debug)]
+        #[allow(non_camel_case_types, reason = \"messages show a name of this case without its module\")]
         #[allow(dead_code, reason = \"an author reads some of them only\")]
-        {public} struct {scene}Path {{
+        {public} struct {path} {{
             {fields}
             /// The path's radiance.
             pub colour: {PATHS}::ColourRegisters<{colour}>,
         }}
 
         impl {PATHS}::PathScene for {scene} {{
-            type Path = {scene}Path;
+            type Path = {path};
 
             fn scene() -> &'static ::qrt::scene::valid::ValidScene {{
                 {scene}::scene()
             }}
 
-            fn path(inputs: &mut {PATHS}::PathInputs<'_>) -> {scene}Path {{
-                {scene}Path {{ {made} colour: inputs.colour() }}
+            fn path(inputs: &mut {PATHS}::PathInputs<'_>) -> {path} {{
+                {path} {{ {made} colour: inputs.colour() }}
             }}
         }}"
     );
@@ -135,33 +137,30 @@ pub(super) fn numbers(
         }
     }
     faces.retain(|(_, faces)| faces.len() <= MOST_FACES);
-    table(
-        out,
-        (scene, public),
-        ("Materials", "MATERIALS", "material", &materials),
-    );
-    table(out, (scene, public), ("Faces", "FACES", "face", &faces));
+    table(out, (scene, public), ("MATERIALS", "material", &materials));
+    table(out, (scene, public), ("FACES", "face", &faces));
 }
 
 /// Writes a struct with a field for each name, and a constant of that struct.
 fn table(
     out: &mut String,
     (scene, public): (&str, &str),
-    (plural, constant, noun, named): (&str, &str, &str, &[Named]),
+    (constant, noun, named): (&str, &str, &[Named]),
 ) {
+    let ty = beside(scene, constant);
     let names = identifiers(named.iter().map(|(name, _)| name.as_str()));
     let mut fields = String::new();
     let mut values = String::new();
     for (field, (name, numbers)) in names.iter().zip(named) {
         let name = name.replace('`', "'");
-        let (ty, value) = match &numbers[..] {
+        let (number, value) = match &numbers[..] {
             [one] => ("::core::primitive::u32".to_owned(), one.to_string()),
             several => (
                 "&'static [::core::primitive::u32]".to_owned(),
                 format!("&{several:?}"),
             ),
         };
-        let _ = writeln!(fields, "/// `{name}`\npub {field}: {ty},");
+        let _ = writeln!(fields, "/// `{name}`\npub {field}: {number},");
         let _ = write!(values, "{field}: {value}, ");
     }
     let _ = writeln!(
@@ -171,13 +170,14 @@ fn table(
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug,
         )]
+        #[allow(non_camel_case_types, reason = \"messages show a name of this case without its module\")]
         #[allow(dead_code, non_snake_case, reason = \"an author's names, of which some are read\")]
-        {public} struct {scene}{plural} {{ {fields} }}
+        {public} struct {ty} {{ {fields} }}
 
         #[allow(dead_code, reason = \"an author asks for some of them only\")]
         impl {scene} {{
             /// The number that each {noun} with a name has in the registers of a path.
-            {public} const {constant}: {scene}{plural} = {scene}{plural} {{ {values} }};
+            {public} const {constant}: {ty} = {ty} {{ {values} }};
         }}"
     );
 }

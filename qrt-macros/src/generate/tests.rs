@@ -2,6 +2,7 @@
 
 use super::*;
 use qrt_core::oracle::OracleCost;
+use qrt_tracer::PixelClass;
 
 /// One of the smallest scenes whose circuit has every kind of part: two rays, a search that meets
 /// or misses, a register that a scope copies out, tables, words of a pixel, and a place in the
@@ -131,10 +132,7 @@ fn a_budget_is_held_when_the_scene_is_compiled() {
         (&labels(), &small("budget: { toffoli: 10, qubits: 5 }")),
     );
     let problems = problems.unwrap_err();
-    let codes: Vec<_> = problems
-        .iter()
-        .map(qrt_scene::syntax::Problem::code)
-        .collect();
+    let codes: Vec<_> = problems.iter().map(qrt_syntax::Problem::code).collect();
     assert_eq!(codes, ["QRT0601", "QRT0602"]);
 }
 

@@ -3,7 +3,7 @@
 
 use super::problem::Problems;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{AttrStyle, Attribute, ItemFn};
 

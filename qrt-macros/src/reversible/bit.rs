@@ -3,7 +3,7 @@
 use super::dim::Linear;
 use super::ir::{Bit, Entry, Kind, Number, NumberKind, Place, Register};
 use super::scope::Scope;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use std::rc::Rc;
 use syn::{BinOp, Expr, Lit, UnOp};
 

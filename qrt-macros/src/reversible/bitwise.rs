@@ -6,7 +6,7 @@ use super::ir::{Bit, Place, Statement, StatementKind as K, Term, Update};
 use super::scope::{Scope, integer};
 use super::source::text;
 use proc_macro2::{Span, TokenStream};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, Ident, UnOp};
 

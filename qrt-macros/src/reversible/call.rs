@@ -5,7 +5,7 @@ use super::scope::Scope;
 use super::signature;
 use super::source::{begin, text, type_text};
 use proc_macro2::TokenStream;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{Expr, ExprCall, ExprMethodCall, ExprPath, GenericArgument, Ident, PathArguments, QSelf};

@@ -5,7 +5,7 @@ mod formats;
 
 use super::constants::Constants;
 use super::ir::{
-    Array, Bit, Demand, NumberKind, Place, Register, Routine, Signature, Statement,
+    Array, Bit, Demand, NumberKind, OfTrait, Place, Register, Routine, Signature, Statement,
     StatementKind as K, Term, Update, inverse,
 };
 use super::outside;
@@ -13,7 +13,7 @@ use super::source::as_written;
 use super::value::{Temporaries, own};
 use crate::surroundings;
 use arguments::{from_array, handed};
-use proc_macro2::{Delimiter, Group, LineColumn, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, LineColumn, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use std::cell::LazyCell;
 use std::ops::Deref;
@@ -52,6 +52,12 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
         let mut emitter = Emitter {
             temporaries: 0,
             host: host.clone(),
+            // One type in all of the functions, so that the compiler shows equal errors once.
+            by: if beside.is_some() {
+                host.clone()
+            } else {
+                quote!(__qrt::Recorder)
+            },
             is_undone,
             constants: constants.clone(),
         };
@@ -68,7 +74,7 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
                 #frame
                 const {
                     let __running = <__Frame<#host> as __qrt::CallFrame>::RUNNING;
-                    ::core::assert!(!__running.repeats(), #message);
+                    __qrt::demand(!__running.repeats(), #message);
                 }
             }
         });
@@ -94,7 +100,7 @@ pub(super) fn routine(routine: &Routine) -> TokenStream {
     let name = &routine.signature.name;
     let renamed =
         format!("QRT0812: `{name}_inverse` has another name here, by which it cannot be undone");
-    let renamed = quote!(const { ::core::assert!(!#kind::UNDONE, #renamed) };);
+    let renamed = quote!(const { ::qrt::circuit::demand(!#kind::UNDONE, #renamed) };);
     let registers = routine
         .signature
         .parameters
@@ -141,11 +147,8 @@ fn is_item(demand: &Demand, signature: &Signature, is_free: &impl Deref<Target =
 
 /// Returns the assertion of a demand, at the place that needs it.
 fn asserted(demand: &Demand) -> TokenStream {
-    let condition = &demand.condition;
-    // The message is a format string, and may quote braces of the source.
-    let message = demand.message.replace('{', "{{").replace('}', "}}");
-    let span = Span::mixed_site().located_at(demand.span);
-    quote_spanned!(span=> ::core::assert!(#condition, #message))
+    let (condition, message) = (&demand.condition, &demand.message);
+    quote_spanned!(demand.span=> ::qrt::circuit::demand(#condition, #message))
 }
 
 /// Returns the assertions of demands, those of one place together, so that the compiler reports the first of
@@ -171,8 +174,13 @@ fn by_place(demands: &[&Demand]) -> Vec<TokenStream> {
 /// of its parameters hides its name.
 fn beside(signature: &Signature) -> Option<TokenStream> {
     let Signature { name, own, .. } = signature;
+    match &signature.of {
+        OfTrait::Implemented(of) => return Some(quote!(<Self as #of>::#name::<#(#own,)* _>)),
+        OfTrait::Declared => return None,
+        OfTrait::None => {}
+    }
     let hides = |parameter: &Rc<Register>| parameter.name == *name;
-    if signature.in_trait || signature.parameters.iter().any(hides) {
+    if signature.parameters.iter().any(hides) {
         return None;
     }
     let path = surroundings::path(name)?;
@@ -255,7 +263,7 @@ fn functions(
         attributes,
         visibility,
         name,
-        in_trait,
+        of,
         own: own_constants,
         machine: kind,
         constants,
@@ -299,7 +307,7 @@ fn functions(
     let declared = own_constants.declared();
     let some = (!own_constants.is_empty()).then(|| quote!(<#(#declared),*>));
     // In a trait, the trait's own attributes apply.
-    let must_use = (!in_trait).then(|| quote!(#[must_use]));
+    let must_use = matches!(of, OfTrait::None).then(|| quote!(#[must_use]));
     let style = own("style");
     let inputs = parameters.iter().map(|parameter| {
         let Register { name, array, .. } = &**parameter;
@@ -378,13 +386,15 @@ pub(super) fn function(path: &ExprPath, inverse: bool) -> ExprPath {
     path
 }
 
-/// The most registers that [`qrt_circuit::Caller::call`] takes.
+/// The most registers that [`qrt_circuit::Handed`] compares.
 const MOST_CHECKED: usize = 16;
 
 struct Emitter {
     temporaries: usize,
     /// The type of the host that the function runs on.
     host: TokenStream,
+    /// The type that implements the traits of a call. Errors name it, unless it is a type parameter.
+    by: TokenStream,
     /// True if the host undoes the function where these statements run.
     is_undone: bool,
     /// The constants that the function is generic over.
@@ -434,28 +444,32 @@ impl Emitter {
                 {
                     given.args.push(syn::parse_quote!(_));
                 }
+                let called = function.path.segments.last().map(|last| last.ident.span());
+                let called = called.unwrap_or_else(Span::call_site);
+                let [first, last] = [arguments.first(), arguments.last()]
+                    .map(|argument| argument.map_or(called, |(_, _, name)| name.span()));
                 let register_count = arguments.len();
                 let (taken, arguments) = handed(arguments);
                 let host = &self.host;
                 // The same text in both directions: the compiler shows equal errors once.
                 let inverse = *inverse != self.is_undone;
-                // Errors about the arguments underline the function.
-                let mut arguments = Group::new(Delimiter::Parenthesis, quote!(#(#arguments,)*));
-                let name = function.path.segments.last().map(|last| last.ident.span());
-                arguments.set_span(name.unwrap_or_else(Span::call_site));
+                let caller =
+                    quote!(&mut __qrt::Caller::<_, __Frame<#host>, #inverse>::new(#machine));
                 // The compiler alone checks a call of more registers.
                 let call = if register_count > MOST_CHECKED {
-                    let arguments = arguments.stream();
-                    quote! {
-                        #function(
-                            &mut __qrt::Caller::<_, __Frame<#host>, #inverse>::new(#machine),
-                            #arguments
-                        );
-                    }
+                    quote!(#function(#caller, #(#arguments),*);)
                 } else {
+                    // Errors underline these types: the function, or its arguments.
+                    let by = itself(&self.by, called, called);
+                    let with = itself(&self.by, first, last);
                     quote! {
-                        __qrt::Caller::<_, __Frame<#host>, #inverse>::new(#machine)
-                            .call(#function, #arguments);
+                        <#by as __qrt::Reversible<_, _, _>>::run(
+                            #function,
+                            <#by as __qrt::Is<_, _>>::is(#caller),
+                            <#with as __qrt::Handed<_, _, _>>::handed::<
+                                <#host as __qrt::Host>::Register, _, _,
+                            >((#(#arguments,)*)),
+                        );
                     }
                 };
                 if taken.is_empty() {
@@ -599,6 +613,13 @@ impl Emitter {
         let (computed, undone) = (&temporaries.computed, temporaries.undone());
         quote!(#(#computed)* #then #other #undone)
     }
+}
+
+/// Returns a type that is `host`, written from the place `first` to the place `last`.
+fn itself(host: &TokenStream, first: Span, last: Span) -> TokenStream {
+    let begin = quote_spanned!(first=> __qrt::Itself<);
+    let end = quote_spanned!(last=> >);
+    quote!(#begin #host #end)
 }
 
 /// Returns the exchange of two registers.

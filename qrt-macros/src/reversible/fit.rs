@@ -20,7 +20,7 @@ use super::ir::{Bit, Kind, Number, NumberKind, Place, Size, Term, Update};
 use super::number::GIVEN;
 use super::scope::Scope;
 use super::source::{begin, text, type_text};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, UnOp};
 

@@ -23,14 +23,25 @@ pub(super) struct Table {
     pub(super) path: TokenStream,
 }
 
+/// The trait that a function is a method of.
+#[derive(Clone, Default)]
+pub(super) enum OfTrait {
+    /// It is a method of no trait.
+    #[default]
+    None,
+    /// The trait around it declares it.
+    Declared,
+    /// It stands in an `impl` of this trait.
+    Implemented(syn::Path),
+}
+
 /// All parts of a function except its body.
 #[derive(Clone)]
 pub(super) struct Signature {
     pub(super) attributes: Vec<syn::Attribute>,
     pub(super) visibility: syn::Visibility,
     pub(super) name: Ident,
-    /// True if it is a method of a trait.
-    pub(super) in_trait: bool,
+    pub(super) of: OfTrait,
     /// True if `constants` are all generics around the function, as far as the attribute shows.
     pub(super) complete: bool,
     /// The name of the machine's type, which the function does not mention.

@@ -4,11 +4,12 @@
 //! The format of `self` is written at the `impl` and not at the function, so the attribute stands
 //! at the `impl`. Every function of the `impl` is read with `self` and `Self` written out.
 
+use super::ir::OfTrait;
 use super::problem::Problems;
 use super::source::{SELF, text};
 use super::{Around, attributes, emit, signature, understood};
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use syn::{
     FnArg, ImplItem, ItemFn, ItemImpl, ItemTrait, ReceiverKind, TraitItem, Type, Visibility,
@@ -24,7 +25,9 @@ pub(super) fn of_block(mut block: ItemImpl, problems: &mut Problems) -> TokenStr
     );
     let around = Around {
         constants,
-        in_trait: block.trait_.is_some(),
+        of: (block.trait_.as_ref()).map_or(OfTrait::None, |(path, ..)| {
+            OfTrait::Implemented(path.clone())
+        }),
         complete: problems.count() == before,
     };
     let mut others = Vec::new();
@@ -79,7 +82,7 @@ pub(super) fn of_trait(mut declared: ItemTrait, problems: &mut Problems) -> Toke
             "a trait of reversible functions",
             problems,
         ),
-        in_trait: true,
+        of: OfTrait::Declared,
         complete: true,
     };
     let mut others = Vec::new();

@@ -30,10 +30,10 @@ mod track;
 mod value;
 
 use constants::Constants;
-use ir::Routine;
+use ir::{OfTrait, Routine};
 use problem::Problems;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use scope::Scope;
 
 /// Returns the expansion of an item with the attribute.
@@ -84,8 +84,7 @@ fn expanded(arguments: &TokenStream, item: TokenStream) -> (TokenStream, Problem
 struct Around {
     /// The constants that an `impl` is generic over.
     constants: Constants,
-    /// True if it is a method of a trait.
-    in_trait: bool,
+    of: OfTrait,
     /// True if `constants` are all generics around the function.
     complete: bool,
 }

@@ -20,7 +20,7 @@ use super::ir::{Bit, Number, NumberKind, Place, Size};
 use super::scope::Scope;
 use super::source::text;
 use proc_macro2::TokenStream;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::quote;
 use syn::{BinOp, Expr, Lit, UnOp};
 

@@ -3,7 +3,7 @@
 
 use super::source::as_written;
 use proc_macro2::{Ident, TokenStream};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::ToTokens;
 
 /// All problems found so far.

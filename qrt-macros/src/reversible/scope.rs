@@ -7,7 +7,7 @@ use super::outside;
 use super::problem::Problems;
 use super::source::bare;
 use proc_macro2::{Span, TokenStream};
-use qrt_scene::syntax::{codes, nearest};
+use qrt_syntax::{codes, nearest};
 use std::rc::Rc;
 use syn::{BinOp, Expr, Ident, Lit, RangeLimits, UnOp};
 

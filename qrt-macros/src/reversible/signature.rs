@@ -7,7 +7,7 @@ use super::problem::Problems;
 use super::source::{text, type_text};
 use super::{Around, attributes, outside};
 use proc_macro2::{TokenStream, TokenTree};
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, format_ident, quote};
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
@@ -125,7 +125,7 @@ pub(super) fn read(function: &ItemFn, around: &Around, problems: &mut Problems) 
         attributes: own_attributes.cloned().collect(),
         visibility: function.vis.clone(),
         name: signature.ident.clone(),
-        in_trait: around.in_trait,
+        of: around.of.clone(),
         complete: around.complete,
         machine: machine_name(function, &constants),
         own,

@@ -7,7 +7,7 @@ use super::scope::Scope;
 use super::signature;
 use super::source::{bare, begin, text};
 use proc_macro2::TokenStream;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens, quote};
 use std::rc::Rc;
 use syn::{BinOp, Block, Expr, Ident, Local, Pat, Stmt, StmtMacro, Type};

@@ -7,7 +7,7 @@ use super::outside;
 use super::scope::Scope;
 use super::source::{begin, text};
 use proc_macro2::TokenStream;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::{ToTokens as _, format_ident, quote};
 use std::rc::Rc;
 use syn::{Expr, ExprIndex, Path};
@@ -202,7 +202,7 @@ mod tests {
     use crate::reversible::expanded;
     use crate::reversible::problem::Problems;
     use proc_macro2::TokenStream;
-    use qrt_scene::syntax::codes;
+    use qrt_syntax::codes;
     use quote::quote;
 
     /// Returns the code that reads `array[k]` in a function over `W`, and the problems.
@@ -248,10 +248,7 @@ mod tests {
         let [item] = items.as_slice() else {
             panic!("{tokens}");
         };
-        assert!(
-            item.contains("assert ! (4 <= (__TABLE_0 . len ()"),
-            "{item}"
-        );
+        assert!(item.contains("demand (4 <= (__TABLE_0 . len ()"), "{item}");
     }
 
     #[test]

@@ -588,7 +588,7 @@ fn what_constants_must_fulfil_is_asked_of_them() {
     ] {
         let (tokens, problems) = expanded(&TokenStream::new(), item);
         assert_eq!(problems.messages(), [""; 0]);
-        let demand = format!("const {{ :: core :: assert ! ({condition} , {message:?}) }}");
+        let demand = format!("const {{ :: qrt :: circuit :: demand ({condition} , {message:?}) }}");
         assert!(tokens.to_string().contains(&demand), "{demand}: {tokens}");
     }
 }

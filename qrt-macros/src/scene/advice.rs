@@ -1,6 +1,6 @@
 //! Advice: the right thing to write, in the macro's form.
 
-use qrt_scene::syntax::{
+use qrt_syntax::{
     Description, Expected, Material, MeshFile, Sampling, Structure, What, called, codes, listed,
     nearest,
 };
@@ -81,6 +81,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("obj", "obj: \"mesh.obj\""),
     ("ply", "ply: \"mesh.ply\""),
     ("gltf", "gltf: \"mesh.glb\""),
+    ("colors", "colors: vertices"),
     ("bits", "bits: (8, 8)"),
     ("error", "error: 0.01"),
     ("confidence", "confidence: 0.95"),

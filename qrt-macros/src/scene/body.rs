@@ -4,8 +4,8 @@ use super::advice::example;
 use super::tokens::{Token, join, place_of};
 use super::values::{Reader, entry, faulty, text};
 use proc_macro2::Delimiter;
-use qrt_scene::syntax::tree::{Entry, Node, Span, Value};
-use qrt_scene::syntax::{called, codes, listed, meant_by};
+use qrt_syntax::tree::{Entry, Node, Span, Value};
+use qrt_syntax::{called, codes, listed, meant_by};
 use std::sync::Arc;
 
 /// The words that an entry can begin with.

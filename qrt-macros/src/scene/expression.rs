@@ -5,9 +5,9 @@ use super::fault::Faults;
 use super::names::{Meaning, Names};
 use super::tokens::{Kind, Token, join, place_of, written};
 use proc_macro2::Delimiter;
-use qrt_scene::expr::{Expr, Variables};
-use qrt_scene::syntax::tree::Span;
-use qrt_scene::syntax::{Expression as Fault, Problem, What, codes, number as number_text};
+use qrt_syntax::expr::{Expr, Variables};
+use qrt_syntax::tree::Span;
+use qrt_syntax::{Expression as Fault, Problem, What, codes, number as number_text};
 use std::ops::Range;
 
 /// An expression's text, and the places of its parts.

@@ -2,7 +2,7 @@
 
 use super::tokens::Table;
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
-use qrt_scene::syntax::{codes, tree};
+use qrt_syntax::{codes, tree};
 use quote::{quote, quote_spanned};
 use std::collections::HashSet;
 use std::fmt::Write as _;

@@ -4,7 +4,7 @@ use super::body::Body;
 use super::tokens::{Kind, Token, place_of};
 use super::values::{entry, faulty};
 use proc_macro2::Delimiter;
-use qrt_scene::syntax::tree::{Node, Value};
+use qrt_syntax::tree::{Node, Value};
 use std::sync::Arc;
 
 impl Body {

@@ -2,8 +2,8 @@
 
 use super::fault::Faults;
 use proc_macro2::{Ident, TokenStream};
-use qrt_scene::syntax::tree::Span;
-use qrt_scene::syntax::{Report, codes};
+use qrt_syntax::tree::Span;
+use qrt_syntax::{Report, codes};
 use quote::quote;
 use syn::Token;
 use syn::parse::Parser as _;

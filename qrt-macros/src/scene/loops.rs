@@ -4,8 +4,8 @@ use super::body::{Body, ENTRIES};
 use super::expression::value;
 use super::tokens::{Kind, Token, place_of};
 use proc_macro2::Delimiter;
-use qrt_scene::syntax::codes;
-use qrt_scene::syntax::tree::Span;
+use qrt_syntax::codes;
+use qrt_syntax::tree::Span;
 
 /// The most passes that all loops of a scene take together.
 pub(crate) const MAX_PASSES: usize = 100_000;

@@ -28,9 +28,9 @@ pub(crate) use {input::Read, input::read, tokens::Table};
 use body::Body;
 use header::Header;
 use qrt_scene::front::{Files, Loaded, of_tree};
-use qrt_scene::syntax::tree::{Node, Span};
-use qrt_scene::syntax::{At, Problem, Step, Structure, What, codes};
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::tree::{Node, Span};
+use qrt_syntax::{At, Problem, Step, Structure, What, codes};
 use std::path::Path as FilePath;
 
 /// The words before the errors of a file.

@@ -2,9 +2,9 @@
 
 use super::fault::Faults;
 use super::tokens::{Kind, Token, place_of};
-use qrt_scene::expr::{Variable, function_names};
-use qrt_scene::syntax::tree::Span;
-use qrt_scene::syntax::{codes, nearest};
+use qrt_syntax::expr::{Variable, function_names};
+use qrt_syntax::tree::Span;
+use qrt_syntax::{codes, nearest};
 
 /// The meaning of an author's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl Names {
         let variables = self.0.iter().filter(|name| name.is_variable);
         let shown = variables.filter_map(|name| match name.meaning {
             Meaning::Number(value) => {
-                let value = qrt_scene::syntax::number(value);
+                let value = qrt_syntax::number(value);
                 Some(format!("{} = {value}", name.text))
             }
             Meaning::Faulty => None,

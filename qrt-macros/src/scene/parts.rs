@@ -4,8 +4,8 @@ use super::body::{Body, Origin};
 use super::records::no_comma;
 use super::tokens::{Token, join};
 use super::values::{entry, faulty, text};
-use qrt_scene::syntax::codes;
-use qrt_scene::syntax::tree::{Node, Span, Value};
+use qrt_syntax::codes;
+use qrt_syntax::tree::{Node, Span, Value};
 use std::sync::Arc;
 
 impl Body {

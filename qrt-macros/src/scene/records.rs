@@ -3,8 +3,8 @@
 use super::fault::Faults;
 use super::tokens::{Kind, Token, join, place_of};
 use super::values::{Reader, entry, text};
-use qrt_scene::syntax::codes;
-use qrt_scene::syntax::tree::{Entry, Node, Span, Value};
+use qrt_syntax::codes;
+use qrt_syntax::tree::{Entry, Node, Span, Value};
 use std::sync::Arc;
 
 impl Reader {

@@ -2,7 +2,7 @@
 //! and its last token.
 
 use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree};
-use qrt_scene::syntax::tree;
+use qrt_syntax::tree;
 
 /// A token and its place.
 #[derive(Clone, Debug)]

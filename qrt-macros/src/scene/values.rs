@@ -5,8 +5,8 @@ use super::fault::Faults;
 use super::names::Names;
 use super::tokens::{Kind, Token, between_commas, join, place_of, written};
 use proc_macro2::Delimiter;
-use qrt_scene::syntax::codes;
-use qrt_scene::syntax::tree::{Entry, Node, Scalar, Span, Value};
+use qrt_syntax::codes;
+use qrt_syntax::tree::{Entry, Node, Scalar, Span, Value};
 use std::sync::Arc;
 
 /// A reader of values, with the state that later readers and reports need.
@@ -51,7 +51,7 @@ impl Sort {
             (
                 _,
                 "sequence" | "map" | "at" | "window" | "estimator" | "uncompute" | "nearest"
-                | "fraction" | "lights" | "light",
+                | "fraction" | "lights" | "light" | "colors",
             ) => Self::Word,
             (_, "name" | "obj" | "ply" | "gltf") => Self::Text,
             _ => Self::Plain,

@@ -3,8 +3,8 @@
 use super::{code, read_text, writer};
 use proc_macro2::TokenStream;
 use qrt_scene::front::{load, yaml};
-use qrt_scene::syntax::{Problems, Source, codes};
 use qrt_scene::{Bsdf, Jacobian, Material, Scene};
+use qrt_syntax::{Problems, Source, codes};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -71,6 +71,7 @@ fn every_scene_is_the_same_in_both_languages() {
         );
         assert_eq!(valid.polygons(), twin.polygons());
         assert_eq!(valid.balls(), twin.balls());
+        assert_eq!(valid.coloured_faces(), twin.coloured_faces());
     }
 }
 
@@ -128,7 +129,7 @@ const WITHOUT_TWIN: [&str; 45] = [
 /// Codes of the checker that these scenes do not reach. The grammar itself reports some (an
 /// expression is not empty). Others need scenes built in Rust, files of 256 MiB,
 /// millions of faces or disagreements of the OBJ library. Warnings are no errors.
-const ELSEWHERE: [&str; 15] = [
+const ELSEWHERE: [&str; 17] = [
     codes::DUPLICATE_NAME,
     codes::UNUSED_MATERIAL,
     codes::BLACK,
@@ -140,10 +141,12 @@ const ELSEWHERE: [&str; 15] = [
     codes::MTL_LEFT_OUT,
     codes::GLTF_FEATURE,
     codes::GLTF_POSE,
+    codes::COLOURS_UNUSED,
     codes::EXPR_EMPTY,
     codes::BSDF_CHANNELS,
     codes::NOT_RECIPROCAL,
     codes::LIGHT_UNUSED,
+    codes::FAINT_SUNLIGHT,
 ];
 
 #[test]

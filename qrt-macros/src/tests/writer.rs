@@ -1,6 +1,6 @@
 //! Writes a YAML scene as text of `qrt!`, as far as it has a form there.
 
-use qrt_scene::syntax::tree::{Entry, Kind, Node, Scalar, Value};
+use qrt_syntax::tree::{Entry, Kind, Node, Scalar, Value};
 use std::sync::Arc;
 
 /// Returns the scene as tokens' text. `None` if YAML states something that no token can.
@@ -169,6 +169,7 @@ fn scalar(key: &str, scalar: &Scalar) -> String {
         "uncompute",
         "nearest",
         "fraction",
+        "colors",
     ];
     match scalar.kind() {
         Kind::Number(value) if value.is_nan() => "0 / 0".to_owned(),

@@ -7,9 +7,8 @@
 //! body    width, height, crop x, y, width, height (u32 each), u64 seed, scene hash, u32 count of
 //!         options, and for each its name and value; texts as u32 length and UTF-8
 //! record  a tile, a part or an ending, u32 CRC-32 of all before
-//! tile    u32 0, x, y, width, height (u32 each), pixels (3 f64 each, rows from the top),
-//!         queries (u64 each), good ids (3 u64 each), widths of intervals (3 f64 each),
-//!         strata (3 u8 each)
+//! tile    u32 0, x, y, width, height (u32 each), pixels (3 f64 each, rows from the top), the pixels'
+//!         further figures (59 bytes each, see [`CountedPixels::encode`])
 //! part    u32 1, x, y (u32 each), u64 number, u64 paths, u32 count of words, words (u64 each)
 //! ending  u32 2, u32 length, bytes: the properties of a picture, by postcard; always the last record,
 //!         and only in the file of a part of a picture, which has no `part` records
@@ -18,7 +17,9 @@
 //! The pixels' layout is fixed, so that the length of a tile's record follows from its rectangle. The
 //! library without features has checkpoints, and does without serde.
 
-use super::{CheckpointDifference, CheckpointError, Header, PixelPart, Tile, VERSION};
+use super::{
+    CheckpointDifference, CheckpointError, CountedPixels, Header, PixelPart, Tile, VERSION,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -30,7 +31,8 @@ const PART: u32 = 1;
 const ENDING: u32 = 2;
 /// Bytes of a tile's record without its pixels, and bytes of each pixel.
 const RECORD: u64 = 24;
-const PIXEL: u64 = 83;
+const PIXEL: u64 = COLOUR + CountedPixels::BYTES;
+const COLOUR: u64 = 24;
 
 impl Header {
     pub(crate) fn encode(&self) -> Vec<u8> {
@@ -149,13 +151,7 @@ impl Tile {
         for value in self.pixels.iter().flatten() {
             bytes.extend(value.to_bits().to_le_bytes());
         }
-        for number in self.queries.iter().chain(self.good.iter().flatten()) {
-            bytes.extend(number.to_le_bytes());
-        }
-        for width in self.widths.iter().flatten() {
-            bytes.extend(width.to_bits().to_le_bytes());
-        }
-        bytes.extend(self.strata.iter().flatten());
+        self.counted.encode(&mut bytes);
         seal(bytes)
     }
 
@@ -170,20 +166,7 @@ impl Tile {
             let mut value = || take_u64(payload).map(f64::from_bits);
             tile.pixels.push([value()?, value()?, value()?]);
         }
-        for _ in 0..area {
-            tile.queries.push(take_u64(payload)?);
-        }
-        for _ in 0..area {
-            let mut good = || take_u64(payload);
-            tile.good.push([good()?, good()?, good()?]);
-        }
-        for _ in 0..area {
-            let mut width = || take_u64(payload).map(f64::from_bits);
-            tile.widths.push([width()?, width()?, width()?]);
-        }
-        for strata in payload.as_chunks::<3>().0 {
-            tile.strata.push(*strata);
-        }
+        tile.counted = CountedPixels::decode(payload, tile.pixels.len())?;
         Some(tile)
     }
 }

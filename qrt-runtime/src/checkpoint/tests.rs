@@ -34,10 +34,12 @@ fn tile(x: u32, y: u32, width: u32, height: u32) -> Tile {
         width,
         height,
         pixels,
-        queries,
-        good: (0..area).map(|i| [u64::from(i); 3]).collect(),
-        widths: (0..area).map(|i| [f64::from(i) / 8.0; 3]).collect(),
-        strata: (0..area).map(|i| [i as u8; 3]).collect(),
+        counted: CountedPixels {
+            queries,
+            good: (0..area).map(|i| [u64::from(i); 3]).collect(),
+            widths: (0..area).map(|i| [f64::from(i) / 8.0; 3]).collect(),
+            strata: (0..area).map(|i| [i as u8; 3]).collect(),
+        },
     }
 }
 
@@ -512,7 +514,7 @@ fn a_tile_that_does_not_fit_is_refused() {
     let path = folder.path("c");
     let mut checkpoint = Checkpoint::create(&path, &header()).unwrap();
     let mut short = tile(2, 1, 2, 2);
-    short.queries.pop();
+    short.counted.queries.pop();
     let huge = Tile {
         width: u32::MAX,
         height: u32::MAX,

@@ -116,7 +116,7 @@ impl ResolvedPath {
     }
 
     /// Returns whether a file is there.
-    pub fn is_file(&self) -> bool {
+    pub(crate) fn is_file(&self) -> bool {
         matches!(self.kind, Kind::File(_))
     }
 

@@ -57,6 +57,10 @@ pub struct Layer {
 
 /// The path of a picture: any path. Without the features `png` and `exr` no picture can be written,
 /// and a path to write one to does not compile.
+///
+/// With only one of the two features, a path of the other format compiles. The path is a value, whose
+/// ending the compiler does not see. [`Encoding::for_path`] then returns
+/// [`ImageError::Feature`].
 #[cfg_attr(
     not(any(feature = "exr", feature = "png")),
     diagnostic::on_unimplemented(

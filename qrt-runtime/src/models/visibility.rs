@@ -52,6 +52,34 @@ pub struct Searched {
     pub toffoli: u64,
 }
 
+/// The method that found the primary hits of a picture, and its cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
+pub struct PrimaryHitsFound {
+    /// The method.
+    pub method: Visibility,
+    /// The size and cost of the search, if there was one; `None` for a scene without faces, where all
+    /// paths meet nothing.
+    pub searched: Option<Searched>,
+}
+
+impl PrimaryHitsFound {
+    /// Entries of a picture's metadata, or of a checkpoint's header: none if the tracer finds primary
+    /// hits.
+    pub(crate) fn entries(&self) -> Vec<(String, String)> {
+        let mut entries = Vec::new();
+        let mut say = |key: &str, value: String| entries.push((key.to_owned(), value));
+        if self.method != Visibility::Classical {
+            say("visibility", self.method.name().to_owned());
+        }
+        if let Visibility::Grover { failure, guess } = self.method {
+            say("search_failure", failure.to_string());
+            say("first_guess", guess.name().to_owned());
+        }
+        entries
+    }
+}
+
 impl Visibility {
     /// A search with the failure probability [`DEFAULT_FAILURE`] that begins with the hit of the
     /// path before it.

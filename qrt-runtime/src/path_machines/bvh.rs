@@ -4,7 +4,7 @@
 //! For a mesh, the hierarchy narrows the faces down: a ray walks a tree of boxes, eight to a node,
 //! and the search tries only the faces of the leaves that the ray reaches, four at once. All rays
 //! first try a few large faces, for example a room's walls; a ray that comes near nothing else
-//! walks no tree. Every trial runs through [`qrt_core::tracer::cross`] with the same constants.
+//! walks no tree. Every trial runs through [`qrt_tracer::cross`] with the same constants.
 //! Ties go to the face that a loop over all faces would keep. Therefore the result is that of the
 //! loop, bit for bit.
 
@@ -21,7 +21,7 @@ use super::lanes::Lanes;
 use balls::BallPacket;
 use large::LargeFace;
 use packet::Packet;
-use qrt_core::tracer::{Arith, Hit, NO_FACE, NearestSearch, Ray, StageGeometry};
+use qrt_tracer::{Arith, Hit, NO_FACE, NearestSearch, Ray, StageGeometry};
 use rays::{Ends, FindNearest, FindOccluded, Scratch};
 use std::cell::RefCell;
 use std::ops::Range;

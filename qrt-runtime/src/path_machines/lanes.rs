@@ -6,10 +6,10 @@
 
 use crate::path_machines::masks::bits;
 use pulp::bytemuck;
-use qrt_core::tracer::{Arith, Coordinate, Sampled, Segment, Work};
 use qrt_scene::Checker;
-use qrt_scene::expr::Function;
 use qrt_scene::sampling::cell_centre;
+use qrt_syntax::expr::Function;
+use qrt_tracer::{Arith, Coordinate, Sampled, Segment, Work};
 use std::cell::RefCell;
 
 /// Number of paths of a block, whose sample indices are filled in together.

@@ -13,6 +13,7 @@ mod masks;
 mod nearest;
 mod oracle;
 mod path_machine;
+mod path_numbers;
 mod path_state;
 mod pool;
 mod predicate;

@@ -51,8 +51,8 @@ pub struct Finished<'a> {
     /// The path index of the first path.
     pub first_id: u64,
     /// By channel: the number of thresholds that each path's colour exceeds, at most `2^c`. Of an
-    /// oracle of one channel, all but the first are empty; for a predicate's oracle, the number is
-    /// 1 for each good path.
+    /// oracle of one channel, all but the first are empty; of an oracle that marks paths, the number
+    /// is 1 for each good path.
     pub good: [&'a [i64]; 3],
     /// The same for the luminance; empty unless the oracle has it.
     pub luminance: &'a [i64],
@@ -70,7 +70,7 @@ impl OracleMachine {
     }
 
     /// Creates a fixed machine that uses the instruction set `instructions`.
-    pub fn fixed_on(
+    pub(crate) fn fixed_on(
         instructions: InstructionSet,
         oracle: Arc<Oracle>,
         seed: u64,
@@ -168,7 +168,7 @@ impl OracleMachine {
     ///
     /// # Errors
     /// The first defect found; [`Defect::Cancelled`].
-    pub fn trace_until(
+    pub(crate) fn trace_until(
         &self,
         cancel: Option<&AtomicBool>,
         pixels: &[[u32; 2]],

@@ -16,8 +16,8 @@ pub struct QueryCost {
 
 /// A machine that traces the paths of a scene's pixels, for the pixels of one class.
 ///
-/// Pictures, counts, plans and tables are computed from any machine in the same way: the model, the
-/// predicate and the search for primary hits are decided when the machine is made
+/// Pictures, counts, plans and tables are computed from any machine in the same way: the options of
+/// [`crate::models::MachineOptions`] are decided when the machine is made
 /// ([`crate::models::path_machines`]).
 pub trait PathMachine: Send + Sync {
     /// R, the number of paths of a pixel.
@@ -166,8 +166,8 @@ impl Traced<'_> {
         }
     }
 
-    /// Number of paths that a predicate marks, of a machine that reports marks; `None` if a number of
-    /// a path does not fit into the register from which the predicate reads it.
+    /// Number of marked paths, of a machine that reports marks; `None` if a number of a path does not
+    /// fit into its register.
     pub fn marked(&self) -> Option<u64> {
         match self {
             Self::Colours(block) => {

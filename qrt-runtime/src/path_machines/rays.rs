@@ -5,7 +5,7 @@ use super::bvh::{Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, lanes, slots};
 use super::real::WIDTH;
 use pulp::WithSimd;
-use qrt_core::tracer::{Arith, NO_FACE, NearestSearch, Ray, Start};
+use qrt_tracer::{Arith, NO_FACE, NearestSearch, Ray, Start};
 
 /// A ray in stage units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub struct SingleRay {
     pub origin: [f64; 3],
     /// The direction in which the ray goes, of any length.
     pub direction: [f64; 3],
-    /// The plane that the ray leaves and does not meet; [`qrt_core::tracer::NO_PLANE`] for none.
+    /// The plane that the ray leaves and does not meet; [`qrt_tracer::NO_PLANE`] for none.
     pub from: u32,
     /// The kind of place at which the ray starts. Neighbouring rays from the camera are searched
     /// for together; the kind does not change the hit.

@@ -2,7 +2,7 @@
 
 use super::bvh::{Bvh, FEW_FACES, Faces, Indexed};
 use super::lanes::{BLOCK, Inputs, Lanes, Watched, lanes};
-use super::predicate::{Asked, Marker, PathNumbers};
+use super::path_numbers::{Marker, PathNumbers};
 #[cfg(not(any(test, target_arch = "wasm32")))]
 use qrt_machines::InstructionSet;
 
@@ -11,10 +11,9 @@ pub(super) const WIDTH: usize = 2;
 
 use pulp::WithSimd;
 use qrt_core::oracle::paths::{PathFormats, PathNumber};
-use qrt_core::oracle::{Marks, Predicate};
-use qrt_core::tracer::{PixelClass, Stage, trace};
 use qrt_scene::sampling::{Coordinate, PathPoints};
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{PixelClass, PixelClasses, Stage, trace};
 use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
@@ -119,7 +118,7 @@ pub struct Real {
     seed: u64,
     simd: Simd,
     /// Marks the paths that count; `None` if all paths count.
-    asked: Option<Arc<dyn Marker>>,
+    pub(super) asked: Option<Arc<dyn Marker>>,
 }
 
 impl Real {
@@ -154,23 +153,16 @@ impl Real {
         })
     }
 
-    /// Creates a machine for a predicate, for the pixels of one class. In place of a path's colour
-    /// it returns 1 for a good path and 0 for any other under [`Marks::Paths`], and the colour of a
-    /// good path and black for any other under [`Marks::Light`].
+    /// A machine for the pixel (column, row) of `scene`, with the scale of its class.
     ///
     /// # Errors
     /// As [`Real::new`].
-    pub(crate) fn of_predicate(
-        predicate: &Predicate,
-        marks: Marks,
+    pub fn of_pixel(
+        scene: &ValidScene,
         seed: u64,
-        class: PixelClass,
+        pixel: [u32; 2],
     ) -> Result<Self, qrt_scene::sampling::SamplingError> {
-        let scene = predicate.scene();
-        let mut real = Self::of_class(scene, seed, class)?;
-        real.stage = predicate.formats().stage(scene, predicate.numbers(), class);
-        real.asked = Some(Arc::new(Asked::new(predicate, marks)));
-        Ok(real)
+        Self::of_class(scene, seed, PixelClasses::new(scene).class(pixel))
     }
 
     /// Returns the values of `numbers` on one path, in scene units and in the order of `numbers`:
@@ -187,7 +179,7 @@ impl Real {
         id: u64,
     ) -> Result<Vec<f64>, qrt_scene::sampling::SamplingError> {
         let mut real = Self::new(scene, seed)?;
-        real.stage = formats.stage(scene, numbers, PixelClass::default());
+        real.stage = formats.stage(real.stage, numbers);
         let numbers = PathNumbers::new(scene, formats, numbers);
         let mut inputs = real.inputs(Some(numbers.watched()));
         let mut colours = [[0.0; BLOCK]; 3];
@@ -321,17 +313,21 @@ impl Real {
     }
 
     /// Runs `work` with this machine's lanes.
+    #[cfg_attr(
+        any(test, target_arch = "wasm32"),
+        expect(clippy::unused_self, reason = "there, all machines have scalar lanes")
+    )]
     pub(super) fn dispatch<F: WithSimd>(&self, work: F) -> F::Output {
+        // This crate's unit tests and browsers use scalar lanes. Each instruction set adds another
+        // copy of the tracer, to compile or to load, and not all browsers support the widest.
+        #[cfg(any(test, target_arch = "wasm32"))]
+        return work.with_simd(pulp::Scalar::new());
+        #[cfg(not(any(test, target_arch = "wasm32")))]
         match self.simd {
-            // This crate's unit tests and browsers use scalar lanes. Each instruction set adds
-            // another copy of the tracer, to compile or to load, and not all browsers support the
-            // widest.
-            #[cfg(not(any(test, target_arch = "wasm32")))]
-            Simd::Widest => InstructionSet::widest().dispatch(work),
-            #[cfg(any(test, target_arch = "wasm32"))]
-            Simd::Widest => work.with_simd(pulp::Scalar::new()),
-            Simd::Scalar => work.with_simd(pulp::Scalar::new()),
+            Simd::Widest => InstructionSet::widest(),
+            Simd::Scalar => InstructionSet::Portable,
         }
+        .dispatch(work)
     }
 }
 

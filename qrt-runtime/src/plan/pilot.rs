@@ -7,12 +7,12 @@ use crate::sample::{Means, Tally, prefix_means, radiance, spread, tallies};
 use crate::workers::Workers;
 use qrt_circuit::quantum::MAX_LEVEL_BITS;
 use qrt_core::oracle::{CallCost, Oracles};
-use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
 use qrt_counting::{Comparators, CountingError, LevelCounts};
 use qrt_scene::sampling::MAX_PATH_BITS;
 use qrt_scene::valid::{Parameters, ValidScene};
 use qrt_scene::{Accuracy, Comparator, Estimator, Sequence};
+use qrt_tracer::ByClass;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::sync::Mutex;
@@ -241,7 +241,7 @@ impl<'a> Pilot<'a> {
             }
         }
         self.values = means;
-        if self.estimator.counts_strata() || self.estimator.reads_levels() {
+        if self.estimator.reads_colours() {
             let chosen = self.comparator_bits;
             let found = self.tallied(chosen..=chosen)?;
             self.levels = found.into_iter().map(|tally| tally.levels).collect();

@@ -133,7 +133,7 @@ pub fn count_where<S: PathScene>(
     if name == Estimator::Exact && options.noise != Noise::NONE {
         return Err(RenderError::NothingNoisy);
     }
-    options.check_predicate(scene)?;
+    options.check_memory(scene)?;
     let crop = crop_of(scene, options)?;
     let [x, y, width, height] = crop;
     let rows = (y..y + height).flat_map(|row| (x..x + width).map(move |column| [column, row]));
@@ -206,11 +206,8 @@ pub fn count_where<S: PathScene>(
             *good += sum;
         }
     }
-    let settings = Settings {
-        // There are no comparators, and so no strata of comparators.
-        strata: None,
-        ..Settings::from_counting(&scene.scene().counting)?
-    };
+    // There are no comparators.
+    let settings = Settings::from_counting(&scene.scene().counting)?.of_whole();
     let estimator = options.estimator_of(name, &settings)?;
     let estimated = pixels.into_iter().zip(good).map(|(pixel, good)| {
         let channel = PREDICATE_CHANNEL as u8;

@@ -1,4 +1,4 @@
-//! User-defined predicates of paths: counts, pictures and single paths.
+//! User-defined predicates of paths: counts and pictures.
 //!
 //! A predicate is reversible code over the registers of a path; [`qrt_core::oracle::paths`] lists
 //! these registers. The predicate becomes a part of the oracle, between compute and uncompute: see
@@ -13,19 +13,18 @@
 //! The crate `qrt` has examples of predicates, because `qrt!` creates the types of their registers.
 
 mod count;
-mod path;
 
 pub use count::{PixelCount, PredicateCount, count_where};
-pub use path::{TracedHit, TracedPath, TracedRay, trace_path, trace_path_of};
 
 pub use crate::path_machines::QueryCost;
-pub use crate::render::PredicateRefusal;
+pub use crate::render::error::PredicateRefusal;
 
-use crate::render::{Colour, RenderError, RenderOptions, Rendered, Visibility, render_predicate};
+use crate::models::{MachineOptions, path_machines};
+use crate::render::{Colour, RenderError, RenderOptions, Rendered, render_on};
 use qrt_circuit::format::{Bool, Reg};
 use qrt_circuit::{Recorded, Recorder};
-use qrt_core::oracle::Predicate;
 use qrt_core::oracle::paths::PathScene;
+use qrt_core::oracle::{Marks, Oracles, Predicate};
 
 /// Checks that `options` and the scene are supported with a predicate.
 pub(crate) fn check(
@@ -38,7 +37,7 @@ pub(crate) fn check(
     if options.colour == Colour::OneRun {
         return Err(PredicateRefusal::OneRun);
     }
-    if options.visibility != Visibility::Classical {
+    if options.searches() {
         return Err(PredicateRefusal::Visibility);
     }
     if options.checkpoint.is_some() {
@@ -62,5 +61,11 @@ pub fn render_where<S: PathScene>(
 ) -> Result<Rendered, RenderError> {
     let predicate = Predicate::record::<S>(predicate)?;
     check(&predicate, options)?;
-    render_predicate(&predicate, options)
+    render_on(predicate.scene(), options, |machine| {
+        let machine = MachineOptions {
+            predicate: Some((&predicate, Marks::Light)),
+            ..machine
+        };
+        path_machines(&Oracles::new(predicate.scene()), &machine)
+    })
 }

@@ -5,7 +5,7 @@ use super::pixel::Pixels;
 use super::stop::Stop;
 use super::totals::Totals;
 use crate::workers::Workers;
-use qrt_core::tracer::{ByClass, PixelClass, PixelClasses};
+use qrt_tracer::ByClass;
 
 /// For each class, the machine that traces its pixels and the estimator that counts them.
 pub(super) struct Classes(ByClass<Pixels>);
@@ -22,12 +22,7 @@ impl Classes {
 
     /// Returns the colour scale of each pixel.
     pub(super) fn scales(&self) -> Scales {
-        let (of, pixels) = self.0.parts();
-        let bound = |(class, pixels): &(PixelClass, Pixels)| (*class, pixels.bound());
-        Scales {
-            of: of.clone(),
-            bounds: pixels.iter().map(bound).collect(),
-        }
+        Scales(self.0.map(Pixels::bound))
     }
 
     /// Returns whether pixels are traced one by one: see [`Pixels::splits`].
@@ -51,25 +46,22 @@ impl Classes {
 
 /// The proven bounds on a path's colour, by pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scales {
-    pub(super) of: PixelClasses,
-    pub(super) bounds: Vec<(PixelClass, [f64; 3])>,
-}
+#[cfg_attr(feature = "parts", derive(serde::Serialize, serde::Deserialize))]
+pub struct Scales(
+    #[cfg_attr(feature = "parts", serde(with = "crate::serialized::bounds"))]
+    pub(super)  ByClass<[f64; 3]>,
+);
 
 impl Scales {
     /// The proven bound on a path's colour in pixel (column, row) per channel: the radiance of
     /// S = N.
     pub fn at(&self, pixel: [u32; 2]) -> [f64; 3] {
-        let class = self.of.class(pixel);
-        let mut bounds = self.bounds.iter();
-        let found = bounds.find(|(of, _)| *of == class);
-        found.unwrap_or(&self.bounds[0]).1
+        *self.0.at(pixel)
     }
 
     /// Returns the largest bound of each channel.
     pub fn greatest(&self) -> [f64; 3] {
-        let bounds = self.bounds.iter().map(|(_, bounds)| *bounds);
-        bounds.fold([0.0; 3], |most, bounds| {
+        self.0.values().fold([0.0; 3], |most, bounds| {
             std::array::from_fn(|c| f64::max(most[c], bounds[c]))
         })
     }

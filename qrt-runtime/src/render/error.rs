@@ -1,6 +1,6 @@
 //! Errors of rendering a picture.
 
-use super::{Colour, RenderOptions, Visibility};
+use super::{Colour, RenderOptions};
 use crate::checkpoint::CheckpointError;
 use crate::memory::MemoryError;
 use crate::models::MachineError;
@@ -14,8 +14,8 @@ use qrt_counting::CountingError;
 use qrt_counting::estimators::EstimatorError;
 use qrt_scene::Estimator;
 use qrt_scene::sampling::SamplingError;
-use qrt_scene::syntax::Problem;
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::Problem;
 use std::path::{Path, PathBuf};
 
 /// An error of rendering a picture.
@@ -282,7 +282,7 @@ impl CompiledError {
         if options.colour == Colour::OneRun {
             return Err(Self::OneRun);
         }
-        if options.visibility != Visibility::Classical {
+        if options.searches() {
             return Err(Self::Visibility);
         }
         Ok(())

@@ -3,6 +3,7 @@
 use super::tiles::{pixels, rows};
 use super::{RenderError, RenderOptions};
 use crate::checkpoint::{AT_STAKE, Checkpoint, CheckpointError, Header, PixelPart, Tile};
+use crate::counted_pixels::{CountedPixels, filled};
 use crate::image::{CropWindow, Image};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -16,10 +17,7 @@ pub(super) type Kept = BTreeMap<([u32; 2], u64), PixelPart>;
 pub(super) struct Film {
     crop: [u32; 4],
     pub(super) image: Image,
-    pub(super) queries: Vec<u64>,
-    pub(super) good: Vec<[u64; 3]>,
-    pub(super) widths: Vec<[f64; 3]>,
-    pub(super) strata: Vec<[u8; 3]>,
+    pub(super) counted: CountedPixels,
     /// Number of finished pixels.
     pub(super) finished: u64,
     pub(super) checkpoint: Option<Checkpoint>,
@@ -33,7 +31,9 @@ impl Film {
     /// Creates an empty picture of the part `crop` (x, y, width, height) of a film of `film`
     /// columns and rows.
     pub(super) fn new(crop: [u32; 4], film: [u32; 2]) -> Result<Self, RenderError> {
-        let area = u64::from(crop[2]) * u64::from(crop[3]);
+        let pixels = u64::from(crop[2]) * u64::from(crop[3]);
+        let memory = || RenderError::Memory { pixels };
+        let area = usize::try_from(pixels).map_err(|_| memory())?;
         let window = CropWindow {
             origin: [crop[0], crop[1]],
             film,
@@ -43,13 +43,10 @@ impl Film {
             image: Image {
                 width: crop[2],
                 height: crop[3],
-                pixels: filled([0.0; 3], area)?,
+                pixels: filled([0.0; 3], area).map_err(|_| memory())?,
                 window: (film != [crop[2], crop[3]]).then_some(window),
             },
-            queries: filled(0, area)?,
-            good: filled([0; 3], area)?,
-            widths: filled([0.0; 3], area)?,
-            strata: filled([0; 3], area)?,
+            counted: CountedPixels::zeros(area).map_err(|_| memory())?,
             finished: 0,
             checkpoint: None,
             pending: Vec::new(),
@@ -79,7 +76,7 @@ impl Film {
             let parts = checkpoint.take_parts().into_iter();
             kept.extend(parts.map(|part| ((part.pixel, part.number), part)));
             if !tiles.is_empty() {
-                finished.resize(self.queries.len(), false);
+                finished.resize(self.image.pixels.len(), false);
             }
             for tile in &tiles {
                 self.paint(tile);
@@ -144,10 +141,7 @@ impl Film {
         for (number, row) in rows(tile, self.crop).enumerate() {
             let own = number * width..(number + 1) * width;
             self.image.pixels[row.clone()].copy_from_slice(&tile.pixels[own.clone()]);
-            self.good[row.clone()].copy_from_slice(&tile.good[own.clone()]);
-            self.widths[row.clone()].copy_from_slice(&tile.widths[own.clone()]);
-            self.strata[row.clone()].copy_from_slice(&tile.strata[own.clone()]);
-            self.queries[row].copy_from_slice(&tile.queries[own]);
+            self.counted.replace(row, &tile.counted, own);
         }
     }
 }
@@ -158,14 +152,4 @@ fn there(path: &Path, header: &Header) -> Result<Option<(Checkpoint, Vec<Tile>)>
         Err(CheckpointError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Ok(None),
         opened => opened.map(Some),
     }
-}
-
-/// A list with a value for each pixel, or an error if there is not enough memory.
-fn filled<T: Clone>(value: T, pixels: u64) -> Result<Vec<T>, RenderError> {
-    let memory = || RenderError::Memory { pixels };
-    let size = usize::try_from(pixels).map_err(|_| memory())?;
-    let mut all = Vec::new();
-    all.try_reserve_exact(size).map_err(|_| memory())?;
-    all.resize(size, value);
-    Ok(all)
 }

@@ -7,15 +7,12 @@ use super::request::Request;
 use super::stop::{Stop, go_on};
 use super::tiles::{self, Tiles};
 use super::totals::Totals;
-use super::{Colour, Model, RenderError, Rendered, Visibility};
+use super::{RenderError, Rendered};
 use crate::checkpoint::{Checkpoint, CheckpointError, Header, Tile};
 use crate::workers::{Progress, Workers, slow_build};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-
-/// The option of a checkpoint that names the portion of the picture.
-pub(super) const PORTION: &str = "portion";
 
 /// A picture that is being rendered.
 pub(super) struct Job<'a> {
@@ -36,7 +33,7 @@ impl<'a> Job<'a> {
         let mut film = Film::new(request.crop, [whole.width, whole.height])?;
         let (resumed, kept) = film.open(request.options, || header(&request))?;
         Ok(Self {
-            tiles: request.tiles(),
+            tiles: request.tiles,
             pixels,
             resumed,
             kept,
@@ -89,13 +86,9 @@ impl<'a> Job<'a> {
                     scene_hash: scene.fingerprint().to_string(),
                     film: [scene.scene().film.width, scene.scene().film.height],
                     image: film.image,
-                    queries: film.queries,
-                    widths: film.widths,
-                    strata: film.strata,
-                    good: counts_good(options.model(), options.colour).then_some(film.good),
+                    counted: film.counted,
                     model: options.model(),
-                    visibility: options.visibility,
-                    searched: None,
+                    primary_hits: options.primary_hits(),
                     crop,
                     estimator,
                     own_estimator: options.own_estimator.map(|own| own.name().to_owned()),
@@ -194,17 +187,9 @@ impl<'a> Job<'a> {
         let workers = &self.request.options.workers;
         let pixel = self.pixels.at(place).finish(place, totals, workers)?;
         tile.pixels.push(pixel.colour);
-        tile.queries.push(pixel.queries);
-        tile.good.push(pixel.good);
-        tile.widths.push(pixel.widths);
-        tile.strata.push(pixel.strata);
+        tile.counted.push(&pixel.counted);
         Ok(())
     }
-}
-
-/// Returns whether a picture has the numbers S of good indices of its channels.
-pub(super) fn counts_good(model: Model, colour: Colour) -> bool {
-    model != Model::Real && colour == Colour::ThreeRuns
 }
 
 /// Closes the checkpoint, and returns whether a later render can continue from it.
@@ -229,30 +214,11 @@ pub(super) fn header(request: &Request<'_>) -> Header {
         scene_hash: scene.fingerprint().to_string(),
         seed: options.seed,
         options: (decisive.into_iter())
-            .chain(written(options.visibility))
-            .chain(
-                request
-                    .portion
-                    .map(|portion| (PORTION.to_owned(), portion.to_string())),
-            )
+            .chain(options.primary_hits().entries())
+            .chain(request.part.clone())
             .collect(),
         width: scene.scene().film.width,
         height: scene.scene().film.height,
         crop: request.crop,
     }
-}
-
-/// Returns the entries of the method that finds primary hits, for a picture's metadata or a
-/// checkpoint: none if the tracer finds them.
-pub(super) fn written(visibility: Visibility) -> Vec<(String, String)> {
-    let mut written = Vec::new();
-    let mut say = |key: &str, value: String| written.push((key.to_owned(), value));
-    if visibility != Visibility::Classical {
-        say("visibility", visibility.name().to_owned());
-    }
-    if let Visibility::Grover { failure, guess } = visibility {
-        say("search_failure", failure.to_string());
-        say("first_guess", guess.name().to_owned());
-    }
-    written
 }

@@ -4,8 +4,8 @@ use super::{RenderError, Rendered, tiles};
 use crate::image::Layer;
 use crate::path_machines::{Real, SingleRay};
 use glam::DVec3;
-use qrt_core::tracer::Start;
 use qrt_scene::valid::{Polygon, ValidScene};
+use qrt_tracer::Start;
 
 /// Number of pixels whose primary hits are found at a time.
 const PIXELS: usize = 1 << 12;
@@ -15,7 +15,7 @@ impl Rendered {
     /// nothing to report.
     ///
     /// - `interval.R`, `.G`, `.B`: width of a channel's interval, in radiance
-    ///   ([`Rendered::widths`]); with colour from one run, only `interval.Y`, of the luminance;
+    ///   ([`super::CountedPixels::widths`]); with colour from one run, only `interval.Y`, of the luminance;
     /// - `queries.Y`: number of queries of the oracle, for all channels together;
     /// - `depth.Z`: distance from the camera to the first hit of the ray through the pixel's
     ///   centre, along the ray, in units of the scene;
@@ -43,12 +43,14 @@ impl Rendered {
         for &(name, channel) in intervals {
             layers.push(layer(
                 name,
-                self.widths.iter().map(|widths| widths[channel]).collect(),
+                (self.counted.widths.iter())
+                    .map(|widths| widths[channel])
+                    .collect(),
             ));
         }
         layers.push(layer(
             "queries.Y",
-            self.queries.iter().map(|&n| n as f64).collect(),
+            self.counted.queries.iter().map(|&n| n as f64).collect(),
         ));
         let hits = first_hits(scene, self.crop)?;
         let of = |value: fn(&FirstHit) -> f64| -> Vec<f64> {

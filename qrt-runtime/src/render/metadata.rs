@@ -1,7 +1,6 @@
 //! Metadata of a picture: a record of how it was made.
 
 use super::Rendered;
-use super::job::written;
 use super::own::PREFIX;
 use crate::image::{self, Encoding, ImageError, Metadata, PicturePath};
 use qrt_scene::Estimator;
@@ -58,7 +57,7 @@ impl Rendered {
         metadata.set("scene", self.scene_name.as_str())?;
         metadata.set("scene_hash", self.scene_hash.as_str())?;
         metadata.set("model", self.model.name())?;
-        for (key, value) in written(self.visibility) {
+        for (key, value) in self.primary_hits.entries() {
             metadata.set(&key, value)?;
         }
         match &self.own_estimator {
@@ -77,14 +76,8 @@ impl Rendered {
             metadata.set("comparator_at", comparator.at.name())?;
             metadata.set("phase_bits", counting.phase_bits.to_string())?;
             metadata.set("repetitions", counting.repetitions.to_string())?;
-            if self.estimator.counts_strata() {
-                let asked = counting.strata.map_or("auto".into(), |n| n.to_string());
-                metadata.set("strata", asked)?;
-                let used = self.strata_used().into_iter();
-                let used: Vec<String> = used
-                    .map(|(n, channels)| format!("{n}:{channels}"))
-                    .collect();
-                metadata.set("strata_used", used.join(" "))?;
+            for (key, value) in self.counted.entries(self.estimator, counting) {
+                metadata.set(key, value)?;
             }
             if let Some(error) = counting.error.filter(|_| self.estimator.stops_itself()) {
                 metadata.set("counting_error", error.to_string())?;

@@ -50,7 +50,7 @@
 //! ```
 
 mod classes;
-mod error;
+pub(crate) mod error;
 mod film;
 mod job;
 mod layers;
@@ -69,9 +69,10 @@ mod stop;
 mod tiles;
 mod totals;
 
-pub use crate::models::{DEFAULT_FAILURE, Model, Searched, Visibility};
+pub use crate::counted_pixels::CountedPixels;
+pub use crate::models::{DEFAULT_FAILURE, Model, PrimaryHitsFound, Searched, Visibility};
 pub use classes::Scales;
-pub use error::{CompiledError, PredicateRefusal, RenderError, out_of_bounds_advice};
+pub use error::{CompiledError, RenderError, out_of_bounds_advice};
 pub use own::{BoxedEstimator, OwnEstimator};
 #[cfg(feature = "parts")]
 pub use picture_part::{Merge, MergeError, PicturePart, render_part};
@@ -81,7 +82,7 @@ pub(crate) use request::crop_of;
 use crate::checkpoint::Checkpoint;
 use crate::image::{Count, Image};
 use crate::memory::{CircuitWork, Memory};
-use crate::models::{MachineOptions, Machines, path_machines};
+use crate::models::{MachineError, MachineOptions, Machines};
 use crate::named::named;
 use crate::path_machines::{OracleMachine, PathMachine, Simd};
 use crate::plan::{self, PlanFigures};
@@ -89,14 +90,13 @@ use crate::prepared::{PrepareError, Prepared};
 use crate::workers::Workers;
 use classes::Classes;
 use job::Job;
+use qrt_core::oracle::OracleError;
 use qrt_core::oracle::compiled::CompiledOracle;
-use qrt_core::oracle::{Marks, OracleError, Oracles, Predicate};
-use qrt_core::tracer::ByClass;
 use qrt_counting::estimators::Noise;
 use qrt_scene::Estimator;
 use qrt_scene::valid::{Parameters, ValidScene};
+use qrt_tracer::ByClass;
 use request::Request;
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 named! {
@@ -180,6 +180,19 @@ impl<'a> RenderOptions<'a> {
         }
     }
 
+    /// True if primary hits are searched for with an oracle of nearest hits.
+    pub(crate) fn searches(&self) -> bool {
+        self.visibility != Visibility::Classical
+    }
+
+    /// The method that finds primary hits, before the machines are made.
+    fn primary_hits(&self) -> PrimaryHitsFound {
+        PrimaryHitsFound {
+            method: self.visibility,
+            searched: None,
+        }
+    }
+
     /// Checks what is known of a request for a picture before its parameters are chosen: its crop is on
     /// the film, the picture fits into memory, and the estimator fits the other options.
     ///
@@ -208,9 +221,8 @@ impl<'a> RenderOptions<'a> {
         })
     }
 
-    /// Checks that the picture of a predicate, and the least circuit that it may have, fit into the memory
-    /// budget.
-    pub(crate) fn check_predicate(&self, scene: &ValidScene) -> Result<(), RenderError> {
+    /// Checks that the picture, and the least circuit that the scene may have, fit into the memory budget.
+    pub(crate) fn check_memory(&self, scene: &ValidScene) -> Result<(), RenderError> {
         let [_, _, width, height] = request::crop_of(scene, self)?;
         self.memory.keep_picture([width, height])?;
         if self.model() != Model::Real {
@@ -226,9 +238,9 @@ impl<'a> RenderOptions<'a> {
             seed: self.seed,
             simd: self.simd,
             visibility: self.visibility,
-            predicate: None,
             // With one run, the pixel's colour comes from the colours of measured paths.
             colours: self.colour == Colour::OneRun,
+            ..MachineOptions::default()
         }
     }
 }
@@ -248,28 +260,12 @@ pub struct Rendered {
     pub film: [u32; 2],
     /// The picture in linear radiance, of the crop's size.
     pub image: Image,
-    /// Number of queries of the oracle by pixel, in the order of the image's pixels, for all
-    /// channels together. 0 under `exact`, which sums over all paths and queries no oracle. With a
-    /// search for primary hits: queries of the oracle of nearest hits, for all paths together.
-    pub queries: Vec<u64>,
-    /// Width of a channel's interval, in radiance, by pixel and channel; the interval has the
-    /// estimator's confidence. 0 under `exact`, which estimates nothing. With colour from one run,
-    /// the width of the luminance is in the first place.
-    pub widths: Vec<[f64; 3]>,
-    /// Number of strata of the comparator that were counted one by one, by pixel and channel: 1 if
-    /// the whole comparator was counted at once, 0 if nothing was counted. With colour from one
-    /// run, the number of the luminance is in the first place.
-    pub strata: Vec<[u8; 3]>,
-    /// S, the number of good indices of every pixel's channels, in the order of the image's pixels;
-    /// `None` for the real model, which has no comparators.
-    pub good: Option<Vec<[u64; 3]>>,
+    /// The figures of the pixels beside their colours, in the order of the image's pixels.
+    pub counted: CountedPixels,
     /// The model that traced the paths.
     pub model: Model,
-    /// The method that found primary hits.
-    pub visibility: Visibility,
-    /// The size and cost of the search for primary hits, if there was one; `None` for a scene
-    /// without faces, where all paths meet nothing.
-    pub searched: Option<Searched>,
+    /// The method that found primary hits, and its cost.
+    pub primary_hits: PrimaryHitsFound,
     /// x, y, width and height on the film, in pixels.
     pub crop: [u32; 4],
     /// The estimator of the pixels' amplitudes; [`OWN_LIKE`] for a user-defined one.
@@ -303,16 +299,15 @@ pub struct Rendered {
 impl Rendered {
     /// Number of queries of the oracle for the whole picture.
     pub fn total_queries(&self) -> u128 {
-        self.queries.iter().map(|&q| u128::from(q)).sum()
+        self.counted.queries.iter().map(|&q| u128::from(q)).sum()
     }
 
-    /// The number of pixels' channels for each number of strata.
-    pub fn strata_used(&self) -> BTreeMap<u8, u64> {
-        let mut used = BTreeMap::new();
-        for &strata in self.strata.iter().flatten().filter(|&&strata| strata > 0) {
-            *used.entry(strata).or_default() += 1;
-        }
-        used
+    /// S, the number of good indices of every pixel's channels, in the order of the image's pixels;
+    /// `None` for the real model, which has no comparators, and for colour from one run, which counts
+    /// the luminance.
+    pub fn good(&self) -> Option<&[[u64; 3]]> {
+        let counts = self.model != Model::Real && self.colour == Colour::ThreeRuns;
+        counts.then_some(&*self.counted.good)
     }
 
     /// The mean pixel, in linear radiance: red, green, blue.
@@ -329,6 +324,7 @@ impl Rendered {
 
     /// Iterates over the channels of all pixels, as written to a CSV file; x and y are on the film.
     pub fn counts(&self) -> impl Iterator<Item = Count> {
+        let good = self.good();
         tiles::pixels(self.crop)
             .zip(&self.image.pixels)
             .enumerate()
@@ -338,7 +334,7 @@ impl Rendered {
                     y,
                     channel,
                     value: pixel[channel],
-                    good: self.good.as_ref().map(|good| good[place][channel]),
+                    good: good.map(|good| good[place][channel]),
                     total: self.ids,
                     scale: self.scales.at([x, y])[channel],
                 })
@@ -382,7 +378,7 @@ impl Prepared<'_> {
         };
         // With a search for primary hits a smaller circuit runs in place of the scene's. If the scene
         // is small, that one is not compiled only for its size.
-        if options.visibility == Visibility::Classical || !self.compiles_at_once() {
+        if !options.searches() || !self.compiles_at_once() {
             self.check_memory([0, 0], work)?;
         }
         self.check_budget()
@@ -421,10 +417,13 @@ fn trace(
         .try_map(|machine| request.pixels(machine))?;
     let job = Job::new(request, Classes::new(pixels))?;
     let (rendered, checkpoint) = job.render()?;
-    let searched = machines.searched;
+    let primary_hits = PrimaryHitsFound {
+        searched: machines.searched,
+        ..rendered.primary_hits
+    };
     Ok((
         Rendered {
-            searched,
+            primary_hits,
             ..rendered
         },
         checkpoint,
@@ -468,17 +467,14 @@ fn without_checkpoint((rendered, checkpoint): (Rendered, Option<Checkpoint>)) ->
     rendered
 }
 
-/// Renders the light of only those paths that satisfy a predicate.
-pub(crate) fn render_predicate(
-    predicate: &Predicate,
+/// Renders a scene whose parameters are chosen with the machines that `machines` makes from the
+/// options of the scene's own.
+pub(crate) fn render_on(
+    scene: &ValidScene,
     options: &RenderOptions<'_>,
+    machines: impl FnOnce(MachineOptions<'static>) -> Result<Machines, MachineError>,
 ) -> Result<Rendered, RenderError> {
-    let request = Request::new(predicate.scene(), options)?;
-    options.check_predicate(predicate.scene())?;
-    let machine = MachineOptions {
-        predicate: Some((predicate, Marks::Light)),
-        ..options.machine()
-    };
-    let machines = path_machines(&Oracles::new(predicate.scene()), &machine)?;
-    trace(request, machines).map(without_checkpoint)
+    let request = Request::new(scene, options)?;
+    options.check_memory(scene)?;
+    trace(request, machines(options.machine())?).map(without_checkpoint)
 }

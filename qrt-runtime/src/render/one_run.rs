@@ -27,8 +27,8 @@ use qrt_counting::estimators::{
 };
 use qrt_counting::random::Stream;
 use qrt_counting::{Comparators, CountingError, Octaves, Stratum};
-use qrt_scene::Scene;
 use qrt_scene::valid::ValidScene;
+use qrt_scene::{Comparator, Counting};
 use std::ops::Range;
 
 /// The smallest number of paths whose counts are kept as one sum.
@@ -154,14 +154,14 @@ impl Segments {
 impl OneRun {
     pub(super) fn new(
         bound: &[f64; 3],
-        scene: &Scene,
+        comparator: Comparator,
+        counting: &Counting,
         paths: u64,
-        by_strata: bool,
     ) -> Result<Self, CountingError> {
         Ok(Self {
-            comparators: Comparators::new(luminance(bound), scene.comparator)?,
-            comparator_bits: scene.comparator.bits,
-            by_strata,
+            comparators: Comparators::new(luminance(bound), comparator)?,
+            comparator_bits: comparator.bits,
+            by_strata: counting.may_count_strata(),
             segment: SEGMENT.max(paths / SEGMENTS),
         })
     }

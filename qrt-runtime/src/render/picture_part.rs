@@ -1,14 +1,14 @@
 //! Pictures rendered in parts, by several processes or machines, and merged.
 //!
-//! A part has a portion's pixels and everything that a picture's files record: colours, counts,
-//! queries and strata by pixel, bounds, parameters and plan. Its file has the format of a
+//! A part has a portion's pixels and everything that a picture's files record: colours and counts by
+//! pixel, bounds, parameters and plan. Its file has the format of a
 //! checkpoint (see [`crate::checkpoint`]) with one further record at the end, the picture's
 //! [`Properties`], so that a truncated file is noticed. The CRC-32 of the header and of each record shows changed bytes. [`Merge`]
 //! takes the parts in any order and returns the picture that [`super::render`] would have made, to
 //! the last bit.
 
 use super::film::Film;
-use super::job::{PORTION, counts_good, header};
+use super::job::header;
 use super::properties::Properties;
 use super::request::Request;
 use super::tiles::{Tiles, rows};
@@ -21,6 +21,8 @@ use qrt_scene::valid::ValidScene;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// The option of a checkpoint that names the portion of the picture.
+const PORTION: &str = "portion";
 /// The largest number of missing parts that an error lists.
 const NAMED: usize = 16;
 
@@ -150,6 +152,22 @@ pub fn render_part(
     options.prepare(scene)?.render_part(portion, options)
 }
 
+impl Request<'_> {
+    /// The request for one portion of the picture. Its tiles do not depend on [`RenderOptions::tile`],
+    /// so that all processes cut alike.
+    fn with_portion(self, portion: Portion) -> Result<Self, RenderError> {
+        let (count, pixels) = (portion.count(), self.area);
+        if u64::from(count) > pixels {
+            return Err(RenderError::Portions { count, pixels });
+        }
+        Ok(Self {
+            tiles: Tiles::new(self.crop, None, self.paths, portion),
+            part: Some((PORTION.to_owned(), portion.to_string())),
+            ..self
+        })
+    }
+}
+
 impl Prepared<'_> {
     /// Renders a portion of the picture: see [`render_part`].
     ///
@@ -209,10 +227,7 @@ impl PicturePart {
     pub fn encode(&self) -> Vec<u8> {
         let Rendered {
             image,
-            queries,
-            good,
-            widths,
-            strata,
+            counted,
             crop,
             ..
         } = &self.rendered;
@@ -222,13 +237,7 @@ impl PicturePart {
             let mut tile = Tile::new(tiles.rectangle(number));
             for row in rows(&tile.clone(), *crop) {
                 tile.pixels.extend(&image.pixels[row.clone()]);
-                tile.queries.extend(&queries[row.clone()]);
-                match good {
-                    Some(good) => tile.good.extend(&good[row.clone()]),
-                    None => tile.good.extend(row.clone().map(|_| [0; 3])),
-                }
-                tile.widths.extend(&widths[row.clone()]);
-                tile.strata.extend(&strata[row]);
+                tile.counted.extend(counted, row);
             }
             bytes.extend(tile.encode());
         }
@@ -349,10 +358,7 @@ impl Merge {
             whole.threads = whole.threads.max(rendered.threads);
         }
         whole.image = film.image;
-        whole.queries = film.queries;
-        whole.widths = film.widths;
-        whole.strata = film.strata;
-        whole.good = counts_good(whole.model, whole.colour).then_some(film.good);
+        whole.counted = film.counted;
         Ok(whole)
     }
 }

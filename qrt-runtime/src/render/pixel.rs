@@ -6,6 +6,7 @@ use super::stop::{Stop, ended, go_on};
 use super::totals::Totals;
 use super::{BoxedEstimator, Colour, RenderError, RenderOptions};
 use crate::checkpoint::PixelPart;
+use crate::counted_pixels::CountedPixel;
 use crate::path_machines::{PathBlock, PathMachine, Traced};
 use crate::workers::{Progress, Workers};
 use qrt_circuit::quantum::MAX_LEVEL_BITS;
@@ -15,7 +16,7 @@ use qrt_counting::estimators::{
 };
 use qrt_counting::random::Stream;
 use qrt_counting::{Comparators, LevelCounts, Octaves};
-use qrt_scene::{Estimator, Scene};
+use qrt_scene::{Counting, Estimator, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -27,24 +28,15 @@ const PARTS: u64 = 1 << 12;
 /// A finished pixel: its colour, its counts and its queries.
 pub(super) struct Pixel {
     pub(super) colour: [f64; 3],
-    pub(super) queries: u64,
-    /// S, the number of good indices; 0 if none are counted.
-    pub(super) good: [u64; 3],
-    /// Widths of intervals, in radiance; 0 if nothing is counted.
-    pub(super) widths: [f64; 3],
-    /// Number of strata that were counted one by one; 0 if nothing is counted.
-    pub(super) strata: [u8; 3],
+    pub(super) counted: CountedPixel,
 }
 
 impl Pixel {
     /// Adds the estimate of a channel.
     fn add_estimate(&mut self, channel: usize, estimate: &Estimate, radiance: impl Fn(f64) -> f64) {
-        // The sum is at most 3 * 2^40 * 10^6, below 2^62.
-        self.queries += estimate.queries;
-        // There are at most 31 strata.
-        self.strata[channel] = estimate.strata as u8;
         let (low, high) = estimate.interval;
-        self.widths[channel] = radiance(high) - radiance(low);
+        let width = radiance(high) - radiance(low);
+        self.counted.add_estimate(channel, estimate, width);
     }
 }
 
@@ -77,17 +69,17 @@ struct Counter {
 enum Levels {
     /// Their sum alone.
     Sum,
-    /// Sums by octave, since it may count strata one by one.
+    /// Sums by octave, for an estimator that reads the colours of measured paths.
     Octaves,
     /// Each of them, since it may run the mean-phase circuit.
     All,
 }
 
 impl Levels {
-    fn read_by(estimate: Estimator, scene: &Scene) -> Self {
-        if estimate.reads_levels() {
+    fn read_by(counting: &Counting) -> Self {
+        if counting.estimator.reads_levels() {
             Self::All
-        } else if estimate.counts_strata() && scene.counting.strata != Some(1) {
+        } else if counting.reads_levels() {
             Self::Octaves
         } else {
             Self::Sum
@@ -131,7 +123,10 @@ impl Pixels {
         if estimate == Estimator::PhaseMean && bits > MAX_LEVEL_BITS {
             return Err(EstimatorError::LevelBits(bits).into());
         }
-        let by_strata = estimate.counts_strata() && scene.counting.strata != Some(1);
+        let counting = Counting {
+            estimator: estimate,
+            ..scene.counting
+        };
         let one_run = match options.colour {
             Colour::ThreeRuns => None,
             Colour::OneRun if estimate == Estimator::Exact => {
@@ -140,7 +135,7 @@ impl Pixels {
             Colour::OneRun if estimate == Estimator::PhaseMean => {
                 return Err(RenderError::MeanOfOneRun);
             }
-            Colour::OneRun => Some(OneRun::new(&bound, scene, paths, by_strata)?),
+            Colour::OneRun => Some(OneRun::new(&bound, scene.comparator, &counting, paths)?),
         };
         let counter = if estimate == Estimator::Exact {
             None
@@ -158,7 +153,7 @@ impl Pixels {
             Some(Counter {
                 comparators: Comparators::rgb(bound, scene.comparator)?,
                 estimators: estimators.collect::<Result<_, _>>()?,
-                levels: Levels::read_by(estimate, scene),
+                levels: Levels::read_by(&counting),
                 noise: options.noise,
                 one_run,
             })
@@ -407,16 +402,14 @@ impl Pixels {
         workers: &Workers<'_>,
     ) -> Result<Pixel, Stop> {
         self.check(pixel, totals, workers)?;
+        let good = if self.counts_thresholds() {
+            totals.good
+        } else {
+            [0; 3]
+        };
         let mut finished = Pixel {
             colour: [0.0; 3],
-            queries: totals.queries,
-            good: if self.counts_thresholds() {
-                totals.good
-            } else {
-                [0; 3]
-            },
-            widths: [0.0; 3],
-            strata: [0; 3],
+            counted: CountedPixel::new(totals.queries, good),
         };
         let Some(counter) = &self.counter else {
             finished.colour = self.means(totals);
@@ -429,13 +422,12 @@ impl Pixels {
             let segments = &totals.segments;
             let (colour, estimate) = one_run.finish(machine, device, pixel, segments, workers)?;
             finished.colour = colour;
-            finished.queries = 0;
+            finished.counted = CountedPixel::default();
             if let Some(estimate) = estimate {
                 finished.add_estimate(0, &estimate, |amplitude| {
                     one_run.pixel_of_amplitude(amplitude)
                 });
             }
-            finished.good = [0; 3];
             return Ok(finished);
         }
         for channel in 0..3 {

@@ -8,12 +8,11 @@
 mod tests;
 
 use super::own::PREFIX;
-use super::{Colour, Model, Rendered, Scales, Searched, Visibility};
+use super::{Colour, CountedPixels, Model, PrimaryHitsFound, Rendered, Scales};
 use crate::checkpoint::Header;
 use crate::image::Image;
 use crate::plan::PlanFigures;
-use crate::serialized::{self, NoiseFields, PixelClassNames};
-use qrt_core::tracer::{PixelClass, PixelClasses};
+use crate::serialized::{self, NoiseFields};
 use qrt_counting::estimators::Noise;
 use qrt_scene::valid::Parameters;
 use qrt_scene::{Estimator, Scene};
@@ -31,12 +30,9 @@ pub(super) struct Properties {
     estimator: Estimator,
     #[serde(with = "NoiseFields")]
     noise: Noise,
-    visibility: Visibility,
-    searched: Option<Searched>,
+    primary_hits: PrimaryHitsFound,
     plan: Option<PlanFigures>,
-    /// The lamps' outlines: see [`PixelClasses::outlines`].
-    outlines: Option<Vec<Vec<[f64; 2]>>>,
-    bounds: Vec<Bound>,
+    scales: Scales,
     ids: u64,
     paths: u64,
     resumed_paths: u64,
@@ -44,20 +40,10 @@ pub(super) struct Properties {
     threads: usize,
 }
 
-/// The proven bound on a path's colour in the pixels of a class.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Bound {
-    #[serde(with = "PixelClassNames")]
-    class: PixelClass,
-    bound: [f64; 3],
-}
-
 impl Properties {
     /// Returns the properties of a picture; `scene` is its scene without geometry and materials, as
     /// YAML.
     pub(super) fn new(rendered: &Rendered, scene: &str) -> Self {
-        let Scales { of, bounds } = &rendered.scales;
-        let bound = |&(class, bound): &(PixelClass, [f64; 3])| Bound { class, bound };
         Self {
             scene_hash: rendered.scene_hash.clone(),
             scene: scene.to_owned(),
@@ -65,11 +51,9 @@ impl Properties {
             colour: rendered.colour,
             estimator: rendered.estimator,
             noise: rendered.noise,
-            visibility: rendered.visibility,
-            searched: rendered.searched,
+            primary_hits: rendered.primary_hits,
             plan: rendered.plan,
-            outlines: of.outlines(),
-            bounds: bounds.iter().map(bound).collect(),
+            scales: rendered.scales.clone(),
             ids: rendered.ids,
             paths: rendered.paths,
             resumed_paths: rendered.resumed_paths,
@@ -97,11 +81,10 @@ impl Properties {
     pub(super) fn rendered(self, header: &Header) -> Option<Rendered> {
         let scene = Scene::from_yaml(&self.scene, "the part").ok()?;
         let film = [header.width, header.height];
-        if [scene.film.width, scene.film.height] != film || self.bounds.is_empty() {
+        if [scene.film.width, scene.film.height] != film {
             return None;
         }
         let own = header.options.get("estimator");
-        let bounds = self.bounds.into_iter();
         Some(Rendered {
             scene_name: scene.name,
             scene_hash: self.scene_hash,
@@ -112,13 +95,9 @@ impl Properties {
                 pixels: Vec::new(),
                 window: None,
             },
-            queries: Vec::new(),
-            widths: Vec::new(),
-            strata: Vec::new(),
-            good: None,
+            counted: CountedPixels::default(),
             model: self.model,
-            visibility: self.visibility,
-            searched: self.searched,
+            primary_hits: self.primary_hits,
             crop: header.crop,
             estimator: self.estimator,
             own_estimator: own
@@ -135,12 +114,7 @@ impl Properties {
                 circuit: scene.circuit,
             },
             plan: self.plan,
-            scales: Scales {
-                of: PixelClasses::of_outlines(self.outlines),
-                bounds: bounds
-                    .map(|Bound { class, bound }| (class, bound))
-                    .collect(),
-            },
+            scales: self.scales,
             ids: self.ids,
             paths: self.paths,
             resumed_paths: self.resumed_paths,

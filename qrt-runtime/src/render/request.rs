@@ -2,7 +2,7 @@
 
 use super::pixel::Pixels;
 use super::tiles::Tiles;
-use super::{Portion, RenderError, RenderOptions, Visibility};
+use super::{RenderError, RenderOptions};
 use crate::path_machines::PathMachine;
 use qrt_scene::valid::ValidScene;
 use qrt_scene::{Estimator, Scene};
@@ -18,8 +18,10 @@ pub(super) struct Request<'a> {
     pub(super) area: u64,
     /// R, the number of paths of a pixel.
     pub(super) paths: u64,
-    /// The portion of the pixels to render; `None` for all.
-    pub(super) portion: Option<Portion>,
+    /// The picture, cut into tiles.
+    pub(super) tiles: Tiles,
+    /// The entry of a checkpoint's header that names the part of the picture; `None` for all of it.
+    pub(super) part: Option<(String, String)>,
 }
 
 impl<'a> Request<'a> {
@@ -29,14 +31,16 @@ impl<'a> Request<'a> {
     ) -> Result<Self, RenderError> {
         let crop = crop_of(scene, options)?;
         let path_bits = scene.scene().sampling.path_bits;
+        let paths = 1 << path_bits;
         let request = Self {
             scene,
             options,
             crop,
             estimator: estimator(scene.scene(), options)?,
             area: u64::from(crop[2]) * u64::from(crop[3]),
-            paths: 1 << path_bits,
-            portion: None,
+            paths,
+            tiles: Tiles::whole(crop, options.tile, paths),
+            part: None,
         };
         match request.area.checked_mul(request.paths) {
             Some(_) => Ok(request),
@@ -45,27 +49,6 @@ impl<'a> Request<'a> {
                 path_bits,
             }),
         }
-    }
-
-    /// The request for one portion of the picture.
-    #[cfg(feature = "parts")]
-    pub(super) fn with_portion(self, portion: Portion) -> Result<Self, RenderError> {
-        let (count, pixels) = (portion.count(), self.area);
-        if u64::from(count) > pixels {
-            return Err(RenderError::Portions { count, pixels });
-        }
-        Ok(Self {
-            portion: Some(portion),
-            ..self
-        })
-    }
-
-    /// Cuts the picture into tiles. The tiles of portions do not depend on [`RenderOptions::tile`], so
-    /// that all processes cut alike.
-    pub(super) fn tiles(&self) -> Tiles {
-        let size = self.options.tile.filter(|_| self.portion.is_none());
-        let portion = self.portion.unwrap_or(Portion::WHOLE);
-        Tiles::new(self.crop, size, self.paths, portion)
     }
 
     /// Creates the counter of the paths that `machine` traces.
@@ -98,7 +81,7 @@ pub(super) fn estimator(
     scene: &Scene,
     options: &RenderOptions<'_>,
 ) -> Result<Estimator, RenderError> {
-    let classical = options.visibility == Visibility::Classical;
+    let classical = !options.searches();
     if !classical && options.own_estimator.is_some() {
         return Err(RenderError::OwnSearches);
     }

@@ -56,6 +56,11 @@ impl Tiles {
         tiles
     }
 
+    /// Cuts all of `crop` into tiles, as [`Tiles::new`].
+    pub(super) fn whole(crop: [u32; 4], size: Option<[u32; 2]>, paths: u64) -> Self {
+        Self::new(crop, size, paths, Portion::WHOLE)
+    }
+
     /// Number of tiles of all portions.
     fn all(&self) -> u64 {
         let [columns, rows] = self.columns_rows();

@@ -34,7 +34,7 @@ type Estimators = BTreeMap<u64, Box<dyn AmplitudeEstimator + Send + Sync>>;
 pub enum Countable<'a> {
     /// S, the number of good indices.
     Whole(&'a [[u64; 3]]),
-    /// The levels of paths, so that strata may be counted one by one and the mean phase be measured.
+    /// The levels of paths, for estimators that may read the colours of measured paths.
     Levels(&'a [[LevelCounts; 3]]),
 }
 

@@ -23,7 +23,7 @@ use std::path::{Component, Path, PathBuf};
 /// let scene = parse_with(text, "lamp.yaml", &[], Files::held(held))?.valid;
 /// assert_eq!(scene.polygons().len(), 1);
 /// assert!(scene.files()[0].ends_with("lamp.obj"));
-/// # Ok::<(), qrt_scene::syntax::Report>(())
+/// # Ok::<(), qrt_syntax::Report>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Files<'a> {

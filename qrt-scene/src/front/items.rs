@@ -2,9 +2,10 @@
 
 use super::{Files, of_tree};
 use crate::scene::text::Data;
-use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
-use crate::syntax::{InvalidScene, number};
+use crate::valid::InvalidScene;
 use crate::valid::ValidScene;
+use qrt_syntax::number;
+use qrt_syntax::tree::{Entry, Node, Scalar, Span, Value};
 use std::sync::Arc;
 
 /// An item of a scene's data. What a map or a list contains follows it, in order.

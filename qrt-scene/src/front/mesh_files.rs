@@ -4,7 +4,7 @@ use super::meshes::{Faces, bytes_of};
 use super::{Files, gltf, obj, ply};
 use crate::scene::meshes::{FileError, FilePlace, Meshes, Wanted};
 use crate::scene::{Geometry, MeshFormat, Scene};
-use crate::syntax::MeshFile;
+use qrt_syntax::MeshFile;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -5,9 +5,10 @@ mod polygon;
 pub(super) mod surface;
 
 use super::{Files, Unread};
+use crate::Rgb;
 use crate::scene::meshes::MOST_FACES;
-use crate::syntax::MeshFile;
-pub(super) use collect::{Collector, Normals};
+pub(super) use collect::{Collector, Corners, Normals};
+use qrt_syntax::MeshFile;
 use std::path::Path;
 use std::rc::Rc;
 
@@ -61,5 +62,19 @@ pub(super) fn unread(files: Files<'_>, path: &Path, is_library: bool, why: Unrea
             is_library,
             why: error.to_string(),
         },
+    }
+}
+
+/// Returns a vertex's colour.
+///
+/// # Errors
+/// A number that is not in [0, 1].
+pub(super) fn colour(colour: Rgb) -> Result<Rgb, MeshFile> {
+    match colour
+        .into_iter()
+        .find(|value| !(0.0..=1.0).contains(value))
+    {
+        Some(value) => Err(MeshFile::ColourRange { value }),
+        None => Ok(colour),
     }
 }

@@ -12,13 +12,14 @@ pub mod yaml;
 
 use crate::scene::Scene;
 use crate::scene::shape::Part;
-use crate::syntax::tree::Node;
-use crate::syntax::{File, InvalidScene, Place, Problem, Problems, Report, Source, line_after};
+use crate::valid::InvalidScene;
 use crate::valid::{self, ValidScene};
 pub use files::Files;
 pub(crate) use files::Unread;
 pub use items::{Item, from_items};
 pub use mesh_files::load_all;
+use qrt_syntax::tree::Node;
+use qrt_syntax::{File, Place, Problem, Problems, Report, Source, line_after};
 
 /// Maximum number of bytes of a scene file.
 pub const MAX_BYTES: u64 = 16 << 20;
@@ -228,7 +229,7 @@ impl Scene {
     /// )?;
     /// assert_eq!(scene.sampling.path_bits, 12);
     /// assert_eq!(qrt_scene::Scene::from_yaml(&scene.to_yaml(), "printed.yaml")?, scene);
-    /// # Ok::<(), qrt_scene::syntax::Report>(())
+    /// # Ok::<(), qrt_syntax::Report>(())
     /// ```
     ///
     /// # Errors

@@ -14,11 +14,12 @@ mod scan;
 mod tests;
 
 use super::Files;
-use super::meshes::{Collector, Faces, Library, MAX_BYTES, Normals, bytes_of, unread};
+use super::meshes::{Collector, Corners, Faces, Library, MAX_BYTES, Normals, bytes_of, unread};
+use crate::Rgb;
 use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace, Wanted};
-use crate::syntax::{MeshFile, line_after, line_starts};
 use glam::DVec3;
 use mtl::Materials;
+use qrt_syntax::{MeshFile, line_after, line_starts};
 use scan::{OfFace, Scanner};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -80,10 +81,13 @@ pub(super) fn parse(
     let mut corners = mesh.indices.iter().map(corner);
     let mut collector = Collector::default();
     let mut corner_normals = scanner.corner_normals.iter();
+    let mut corner_vertices = scanner.corner_vertices.iter();
     for (number, face) in scanner.faces.iter().enumerate() {
         // Without arities, every face is a triangle.
         let arity = mesh.face_arities.get(number).map_or(3, |n| *n as usize);
-        let corners: Vec<DVec3> = corners.by_ref().take(arity).collect();
+        let places: Vec<DVec3> = corners.by_ref().take(arity).collect();
+        let colour = |vertex: &usize| scanner.colours.get(*vertex).copied().unwrap_or_default();
+        let colours: Vec<Rgb> = corner_vertices.by_ref().take(arity).map(colour).collect();
         let normal = |place: &Option<usize>| {
             let normal = place.and_then(|place| scanner.normals.get(place));
             normal.copied().unwrap_or_default()
@@ -97,13 +101,23 @@ pub(super) fn parse(
             OfFace::Corners => Normals::OfCorners(&normals),
             OfFace::Group(group) => Normals::OfGroup(group),
         };
-        let added = collector.add(&corners, normals, face.material, number as u32);
+        let corners = Corners {
+            places: &places,
+            normals,
+            colours: &colours,
+        };
+        let added = collector.add(corners, face.material, number as u32);
         added.map_err(|what| FileError::new(what, path, face.line))?;
     }
     let line = |number: u32| FilePlace::Line(scanner.faces[number as usize].line);
     let mut read = collector.finish(path, line)?;
     if let Some((keyword, line)) = scanner.shapeless {
         let note = FileError::new(MeshFile::Shapeless { keyword }, path, line);
+        read.notes.push(note);
+    }
+
+    if let Some(line) = scanner.first_coloured.filter(|_| !wanted.colours) {
+        let note = FileError::new(MeshFile::ColoursUnused, path, line);
         read.notes.push(note);
     }
 

@@ -9,8 +9,8 @@
 use crate::front::yaml;
 use crate::scene::text::Data;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling, shape::Part};
-use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
-use crate::syntax::{Override as Fault, Problems, Source, Step};
+use qrt_syntax::tree::{Entry, Node, Scalar, Span, Value};
+use qrt_syntax::{Override as Fault, Problems, Source, Step};
 use std::sync::Arc;
 
 /// A parsed override: a path, and the value to put there.
@@ -98,7 +98,7 @@ fn end_of_keys(text: &str) -> Result<Option<usize>, usize> {
 }
 
 /// Returns a quoted key at the beginning of `text`, and the number of bytes of the quoted key and
-/// the spaces around it. Between double quotation marks, as in [`Path`](crate::syntax::Path), a
+/// the spaces around it. Between double quotation marks, as in [`Path`](qrt_syntax::Path), a
 /// backslash stands before a quotation mark or a backslash of the key's own. Between single ones, a
 /// mark of the key's own is doubled.
 fn quoted(text: &str) -> Option<(String, usize)> {

@@ -7,14 +7,18 @@
 #[cfg(test)]
 mod tests;
 
-use super::meshes::{Collector, Faces, Normals};
+use super::meshes::{Collector, Corners, Faces, Normals, colour};
+use crate::Rgb;
 use crate::scene::meshes::{FileError, FileMesh, FilePlace, Wanted};
-use crate::syntax::{MeshFile, line_after};
 use glam::DVec3;
+use qrt_syntax::{MeshFile, line_after};
 use std::path::Path;
 
 /// Maximum number of elements and properties in a header.
 const MOST_DECLARED: usize = 1024;
+
+/// The properties of a vertex that are its colour.
+const COLOURS: [&str; 3] = ["red", "green", "blue"];
 
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +51,19 @@ impl Scalar {
         })
     }
 
+    /// The value that stands for 1 in a colour, or the name of a type that colours do not have.
+    const fn white(self) -> Result<f64, &'static str> {
+        match self {
+            Self::U8 => Ok(255.0),
+            Self::U16 => Ok(65535.0),
+            Self::F32 | Self::F64 => Ok(1.0),
+            Self::I8 => Err("char"),
+            Self::I16 => Err("short"),
+            Self::I32 => Err("int"),
+            Self::U32 => Err("uint"),
+        }
+    }
+
     const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -71,6 +88,30 @@ struct Element {
 }
 
 impl Element {
+    /// The place among the properties of a single value called `name`.
+    fn property(&self, name: &str) -> Option<usize> {
+        let is_meant = |p: &Property| p.name == name && p.list.is_none();
+        self.properties.iter().position(is_meant)
+    }
+
+    /// True if there is a single value called `name`.
+    fn has(&self, name: &str) -> bool {
+        self.property(name).is_some()
+    }
+
+    /// The places of the properties of a colour among all, each with the value that stands for 1.
+    fn colour(&self) -> Result<[(usize, f64); 3], MeshFile> {
+        let mut found = [(0, 1.0); 3];
+        for (found, property) in found.iter_mut().zip(COLOURS) {
+            let place = self.property(property);
+            let place = place.ok_or(MeshFile::PlyNoColour { property })?;
+            let white = self.properties[place].value.white();
+            let white = white.map_err(|word| MeshFile::PlyColourType { property, word })?;
+            *found = (place, white);
+        }
+        Ok(found)
+    }
+
     fn place(&self, number: usize, byte: usize) -> FilePlace {
         let kind = self.name.as_str().into();
         FilePlace::Element { kind, number, byte }
@@ -111,7 +152,7 @@ pub(super) fn parse(
         at: header.end,
         encoding: header.encoding,
     };
-    let mut mesh = Mesh::new(faces, wanted.normals);
+    let mut mesh = Mesh::new(faces, wanted);
     let (mut has_vertices, mut has_faces) = (false, false);
     for element in &header.elements {
         let is_first = |seen: &mut bool| !std::mem::replace(seen, true);
@@ -127,7 +168,10 @@ pub(super) fn parse(
             let place = match data.encoding {
                 _ if matches!(
                     what,
-                    MeshFile::PlyNoCoordinate { .. } | MeshFile::PlyNoIndices
+                    MeshFile::PlyNoCoordinate { .. }
+                        | MeshFile::PlyNoIndices
+                        | MeshFile::PlyNoColour { .. }
+                        | MeshFile::PlyColourType { .. }
                 ) =>
                 {
                     // The end of the header, without the end of its line.
@@ -145,6 +189,7 @@ pub(super) fn parse(
     let Mesh {
         vertices,
         normals,
+        colours,
         corners,
         ends,
         ..
@@ -166,21 +211,34 @@ pub(super) fn parse(
             found.ok_or_else(|| fail(MeshFile::PlyIndex { index, count }))
         };
         let indices = &corners[first..end.corners];
-        let face = indices.iter().map(corner);
-        let face: Vec<DVec3> = face.collect::<Result<_, _>>()?;
-        let of_corners = indices
-            .iter()
-            .filter_map(|&index| normals.get(index as usize));
-        let of_corners: Vec<DVec3> = of_corners.copied().collect();
-        let of_corners = match of_corners[..] {
-            [] => Normals::Flat,
-            _ => Normals::OfCorners(&of_corners),
+        let places = indices.iter().map(corner);
+        let places: Vec<DVec3> = places.collect::<Result<_, _>>()?;
+        let normals: Vec<DVec3> = of_vertices(&normals, indices);
+        let colours: Vec<Rgb> = of_vertices(&colours, indices);
+        let face = Corners {
+            places: &places,
+            normals: match normals[..] {
+                [] => Normals::Flat,
+                _ => Normals::OfCorners(&normals),
+            },
+            colours: &colours,
         };
-        let added = collector.add(&face, of_corners, None, number);
-        added.map_err(fail)?;
+        collector.add(face, None, number).map_err(fail)?;
         first = end.corners;
     }
-    collector.finish(path, place)
+    let mut read = collector.finish(path, place)?;
+    let vertex = header.elements.iter().find(|e| e.name == "vertex");
+    let has_colours = |vertex: &Element| COLOURS.iter().all(|name| vertex.has(name));
+    if !wanted.colours && vertex.is_some_and(has_colours) {
+        read.notes.push(whole(MeshFile::ColoursUnused));
+    }
+    Ok(read)
+}
+
+/// Returns the attributes of the vertices with these `indices`; none if there are none.
+fn of_vertices<T: Copy>(attributes: &[T], indices: &[u32]) -> Vec<T> {
+    let of = |&index: &u32| attributes.get(index as usize).copied();
+    indices.iter().filter_map(of).collect()
 }
 
 /// Reads the header. An error has the place of its line, in bytes.
@@ -377,10 +435,12 @@ impl Data<'_> {
 /// The vertices and faces so far.
 struct Mesh {
     most: Faces,
-    wants_normals: bool,
+    wanted: Wanted,
     vertices: Vec<DVec3>,
     /// By vertex; empty if the file has none or if they are not wanted.
     normals: Vec<DVec3>,
+    /// By vertex; empty if they are not wanted.
+    colours: Vec<Rgb>,
     /// The indices of the corners of all faces.
     corners: Vec<u32>,
     ends: Vec<End>,
@@ -396,12 +456,13 @@ struct End {
 }
 
 impl Mesh {
-    fn new(most: Faces, wants_normals: bool) -> Self {
+    fn new(most: Faces, wanted: Wanted) -> Self {
         Self {
             most,
-            wants_normals,
+            wanted,
             vertices: Vec::new(),
             normals: Vec::new(),
+            colours: Vec::new(),
             corners: Vec::new(),
             ends: Vec::new(),
             triangles: 0,
@@ -418,17 +479,19 @@ impl Mesh {
         if element.count > most as u64 {
             return Err(MeshFile::ManyVertices { most });
         }
-        let place = |property: &str| {
-            let is_meant = |p: &Property| p.name == property && p.list.is_none();
-            element.properties.iter().position(is_meant)
-        };
+        let place = |property: &str| element.property(property);
         let mut axes = Vec::new();
         for property in ["x", "y", "z"] {
             axes.push(place(property).ok_or(MeshFile::PlyNoCoordinate { property })?);
         }
         let normal = match ["nx", "ny", "nz"].map(place) {
-            [Some(x), Some(y), Some(z)] if self.wants_normals => Some([x, y, z]),
+            [Some(x), Some(y), Some(z)] if self.wanted.normals => Some([x, y, z]),
             _ => None,
+        };
+        let colours = if self.wanted.colours {
+            Some(element.colour()?)
+        } else {
+            None
         };
         let mut values = vec![0.0; element.properties.len()];
         for _ in 0..element.count {
@@ -455,6 +518,10 @@ impl Mesh {
                     DVec3::ZERO
                 };
                 self.normals.push(normal);
+            }
+            if let Some(places) = colours {
+                let value = places.map(|(place, white)| values[place] / white);
+                self.colours.push(colour(value)?);
             }
             *number += 1;
         }

@@ -11,9 +11,9 @@
 mod locator;
 mod tabs;
 
-use crate::syntax::tree::{Entry, Node, Scalar, Span, Value, is_null};
-use crate::syntax::{Override, Problem, Problems, Source, Yaml};
 use locator::Locator;
+use qrt_syntax::tree::{Entry, Node, Scalar, Span, Value, is_null};
+use qrt_syntax::{Override, Problem, Problems, Source, Yaml};
 use saphyr_parser::{Event, Parser, ScalarStyle};
 use std::collections::HashMap;
 use std::ops::Range;

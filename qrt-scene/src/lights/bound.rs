@@ -13,6 +13,9 @@ const TIGHT: f64 = 1.05;
 /// Maximum number of pairs of parts that are examined.
 const MOST_PAIRS: usize = 16_000;
 
+/// Height of a part over the other's plane, and distance, relative to coordinates, below which rounding counts.
+const LOW: f64 = 1e-6;
+
 /// Size of touching parts, relative to the whole, below which there is no bound.
 const TOUCHING: f64 = 1.0 / 64.0;
 
@@ -33,7 +36,7 @@ impl Reached {
     };
 
     /// The bounds of a surface that the lamp does not light.
-    pub const NOTHING: Self = Self {
+    pub(crate) const NOTHING: Self = Self {
         form: 0.0,
         is_near: false,
     };
@@ -113,13 +116,10 @@ fn known(faces: &[&[DVec3]], lamp: &[DVec3], of: Bound, most_pairs: usize) -> f6
     if let Some(&most) = all().get(&print) {
         return most;
     }
-    let lamp: Vec<Triangle> = Triangle::fan(lamp).collect();
-    let pairs = faces.iter().flat_map(|face| Triangle::fan(face));
-    let pairs = pairs.flat_map(|face| lamp.iter().map(move |lamp| [face, *lamp]));
     let most = match of {
-        Bound::Form => supremum(pairs, form, most_pairs, None),
-        Bound::SmoothForm => supremum(pairs, smooth_form, most_pairs, None),
-        Bound::Nearness { most } => supremum(pairs, nearness, most_pairs, Some(most)),
+        Bound::Form => supremum(faces, lamp, form, most_pairs, None),
+        Bound::SmoothForm => supremum(faces, lamp, smooth_form, most_pairs, None),
+        Bound::Nearness { most } => supremum(faces, lamp, nearness, most_pairs, Some(most)),
     };
     let mut all = all();
     if all.len() >= MOST_KNOWN {
@@ -208,7 +208,8 @@ fn form(face: &Triangle, lamp: &Triangle) -> f64 {
     if r == 0.0 {
         return f64::INFINITY;
     }
-    (n / r).min(1.0) * (m / r).min(1.0) / (r * r)
+    let apart = (n / r).min(1.0) * (m / r).min(1.0) / (r * r);
+    apart.min(by_tangents(face, lamp, false))
 }
 
 fn smooth_form(face: &Triangle, lamp: &Triangle) -> f64 {
@@ -218,7 +219,76 @@ fn smooth_form(face: &Triangle, lamp: &Triangle) -> f64 {
     if r == 0.0 {
         return f64::INFINITY;
     }
-    (m / r).min(1.0) / (r * r)
+    let apart = (m / r).min(1.0) / (r * r);
+    apart.min(by_tangents(face, lamp, true))
+}
+
+/// Returns a bound of the form whose excess falls with the square of the parts' sizes: infinity if it does not hold.
+///
+/// With `d = y - x`, the heights `n.d` over the surface's plane and `-m.d` over the lamp's are linear in the two
+/// points, and so is `s = u.d` for a fixed unit vector `u`: here that between the centres, where the heights are
+/// `h` and `g`. Let `p` and `q` be the heights' changes from there, relative to `h` and `g`. As `ln` is below its
+/// tangents and `r >= s`,
+///
+/// ```text
+/// ln(n.d (-m.d) / r^4) <= ln h + ln g + p + q - 4 ln s
+/// ```
+///
+/// The right side is convex, so it is greatest at corners of the two parts. Without `n`, it is
+/// `ln g + q - 3 ln s`.
+fn by_tangents(face: &Triangle, lamp: &Triangle, is_smooth: bool) -> f64 {
+    if face.radius + lamp.radius == 0.0 {
+        // Points, whose form is exact.
+        return f64::INFINITY;
+    }
+    let between = lamp.centre - face.centre;
+    let distance = between.length();
+    let towards = between / distance;
+    let above = face.normal.dot(between);
+    let before = -lamp.normal.dot(between);
+    // Heights and distances that rounding could change by more than the search's slack have no bound here.
+    let all = face.corners.iter().chain(&lamp.corners);
+    let size = all.fold(0.0, |most: f64, corner| {
+        most.max(corner.abs().max_element())
+    });
+    let least = LOW * (size + distance);
+    if before <= least || (!is_smooth && above.abs() <= least) {
+        return f64::INFINITY;
+    }
+    let on_lamp = lamp.corners.map(|corner| {
+        let step = corner - lamp.centre;
+        let rise = if is_smooth {
+            0.0
+        } else {
+            face.normal.dot(step) / above
+        };
+        (rise, towards.dot(step))
+    });
+    // Beyond the surface's plane, the height grows again.
+    if on_lamp.iter().any(|&(rise, _)| rise <= -1.0) {
+        return f64::INFINITY;
+    }
+    let on_face = face.corners.map(|corner| {
+        let step = corner - face.centre;
+        (lamp.normal.dot(step) / before, towards.dot(step))
+    });
+    let power = if is_smooth { 3.0 } else { 4.0 };
+    let mut most = f64::NEG_INFINITY;
+    for (p, ahead) in on_lamp {
+        for (q, back) in on_face {
+            let along = distance + ahead - back;
+            if along <= least {
+                return f64::INFINITY;
+            }
+            most = most.max(p + q - power * along.ln());
+        }
+    }
+    let heights = if is_smooth {
+        before
+    } else {
+        above.abs() * before
+    };
+    heights * most.exp()
 }
 
 fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {
@@ -228,21 +298,40 @@ fn nearness(face: &Triangle, lamp: &Triangle) -> f64 {
     }
 }
 
-/// A pair of parts, which a store holds at `slot`.
+/// Triangles that are cut into parts, each once: most parts belong to many pairs.
+#[derive(Default)]
+struct Parts {
+    all: Vec<Triangle>,
+    /// By triangle: the first of its four parts; 0 if it is not cut yet.
+    quarters: Vec<u32>,
+}
+
+impl Parts {
+    fn push(&mut self, part: Triangle) -> u32 {
+        self.all.push(part);
+        self.quarters.push(0);
+        (self.all.len() - 1) as u32
+    }
+
+    fn quarters(&mut self, number: u32) -> [u32; 4] {
+        let mut first = self.quarters[number as usize];
+        if first == 0 {
+            first = self.all.len() as u32;
+            for part in self.all[number as usize].quarters() {
+                self.push(part);
+            }
+            self.quarters[number as usize] = first;
+        }
+        [0, 1, 2, 3].map(|part| first + part)
+    }
+}
+
+/// A pair of a part of the surface and a part of the lamp.
 struct Pair {
     most: f64,
     size: f64,
-    slot: u32,
-}
-
-impl Pair {
-    fn new(most: f64, [face, lamp]: &[Triangle; 2], slot: u32) -> Self {
-        Self {
-            most,
-            size: face.radius + lamp.radius,
-            slot,
-        }
-    }
+    face: u32,
+    lamp: u32,
 }
 
 impl PartialEq for Pair {
@@ -264,54 +353,34 @@ impl Ord for Pair {
     }
 }
 
-/// Pairs of parts that are still to be looked at. The heap orders references to them: a pair is too
-/// large to be moved again and again.
-struct Pairs {
-    heap: BinaryHeap<Pair>,
-    parts: Vec<[Triangle; 2]>,
-    free: Vec<u32>,
-}
-
-impl Pairs {
-    fn push(&mut self, most: f64, parts: &[Triangle; 2]) {
-        let slot = if let Some(slot) = self.free.pop() {
-            self.parts[slot as usize] = *parts;
-            slot
-        } else {
-            self.parts.push(*parts);
-            (self.parts.len() - 1) as u32
-        };
-        self.heap.push(Pair::new(most, parts, slot));
-    }
-
-    fn pop(&mut self) -> Option<(Pair, [Triangle; 2])> {
-        let pair = self.heap.pop()?;
-        self.free.push(pair.slot);
-        let parts = self.parts[pair.slot as usize];
-        Some((pair, parts))
-    }
-}
-
-/// Returns an upper bound over all pairs; `bound` gives that of one pair. With `asked`, the bound is only as
-/// tight as it takes to tell whether the supremum exceeds this value.
+/// Returns an upper bound over all pairs of a face and the lamp; `bound` gives that of one pair of triangles.
+/// With `asked`, the bound is only as tight as it takes to tell whether the supremum exceeds this value.
 fn supremum(
-    pairs: impl Iterator<Item = [Triangle; 2]>,
+    faces: &[&[DVec3]],
+    lamp: &[DVec3],
     bound: impl Fn(&Triangle, &Triangle) -> f64,
     most_pairs: usize,
     asked: Option<f64>,
 ) -> f64 {
-    let pairs = pairs.map(|pair| (bound(&pair[0], &pair[1]), pair));
-    let (bounds, parts): (Vec<f64>, Vec<[Triangle; 2]>) =
-        pairs.filter(|(most, _)| *most > 0.0).unzip();
-    let numbered = (0..).zip(bounds.iter().zip(&parts));
-    let mut open = Pairs {
-        heap: numbered
-            .map(|(slot, (&most, parts))| Pair::new(most, parts, slot))
-            .collect(),
-        parts,
-        free: Vec::new(),
-    };
-    let whole = open.heap.iter().map(|pair| pair.size).fold(0.0, f64::max);
+    let mut parts = Parts::default();
+    let lamps: Vec<u32> = Triangle::fan(lamp).map(|part| parts.push(part)).collect();
+    let mut pairs: Vec<Pair> = Vec::new();
+    for part in faces.iter().flat_map(|face| Triangle::fan(face)) {
+        let face = parts.push(part);
+        pairs.extend(lamps.iter().filter_map(|&lamp| {
+            let other = &parts.all[lamp as usize];
+            let most = bound(&part, other);
+            let size = part.radius + other.radius;
+            (most > 0.0).then_some(Pair {
+                most,
+                size,
+                face,
+                lamp,
+            })
+        }));
+    }
+    let whole = pairs.iter().map(|pair| pair.size).fold(0.0, f64::max);
+    let mut open = BinaryHeap::from(pairs);
     let point = |part: &Triangle| Triangle {
         radius: 0.0,
         corners: [part.centre; 3],
@@ -323,10 +392,11 @@ fn supremum(
     // The greatest bound of the parts that are not kept, since they end the search when they are reached.
     let mut dropped: f64 = 0.0;
     for _ in 0..most_pairs {
-        let Some((pair, [face, lamp])) = open.pop() else {
+        let Some(pair) = open.pop() else {
             return dropped * (1.0 + 1e-9);
         };
-        let middle = bound(&point(&face), &point(&lamp));
+        let [face, lamp] = [pair.face, pair.lamp].map(|part| &parts.all[part as usize]);
+        let middle = bound(&point(face), &point(lamp));
         if middle.is_finite() {
             taken = taken.max(middle);
         }
@@ -338,17 +408,28 @@ fn supremum(
             return pair.most.max(dropped) * (1.0 + 1e-9);
         }
         let cut_face = face.radius >= lamp.radius;
-        let larger = if cut_face { &face } else { &lamp };
-        for part in larger.quarters() {
-            let [face, lamp] = if cut_face { [part, lamp] } else { [face, part] };
-            let most = bound(&face, &lamp);
+        let larger = if cut_face { pair.face } else { pair.lamp };
+        for part in parts.quarters(larger) {
+            let (face, lamp) = if cut_face {
+                (part, pair.lamp)
+            } else {
+                (pair.face, part)
+            };
+            let [one, other] = [face, lamp].map(|part| &parts.all[part as usize]);
+            let most = bound(one, other);
             if most <= TIGHT * taken {
                 dropped = dropped.max(most);
             } else {
-                open.push(most, &[face, lamp]);
+                let size = one.radius + other.radius;
+                open.push(Pair {
+                    most,
+                    size,
+                    face,
+                    lamp,
+                });
             }
         }
     }
-    let kept = open.heap.peek().map_or(0.0, |pair| pair.most);
+    let kept = open.peek().map_or(0.0, |pair| pair.most);
     kept.max(dropped) * (1.0 + 1e-9)
 }

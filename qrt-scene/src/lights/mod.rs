@@ -82,7 +82,7 @@ impl Lamp {
 }
 
 /// True if a planar quad is a parallelogram, which can be sampled by its edges alone.
-pub fn is_parallelogram([a, b, c, d]: [DVec3; 4]) -> bool {
+pub(crate) fn is_parallelogram([a, b, c, d]: [DVec3; 4]) -> bool {
     let size = (c - a).length().max((d - b).length());
     ((a + c) - (b + d)).length() <= PARALLEL * size
 }

@@ -53,6 +53,17 @@ pub(crate) fn unit_vector(direction: DVec3) -> Option<DVec3> {
     (size > 0.0).then(|| (direction / size).normalize())
 }
 
+/// Returns the unit vector along `direction`, which is not zero: bit for bit that of [`DVec3::normalize`],
+/// where squares neither overflow nor vanish.
+pub(crate) fn normalized(direction: DVec3) -> DVec3 {
+    let size = direction.abs().max_element();
+    if (1e-100..1e100).contains(&size) {
+        direction.normalize()
+    } else {
+        unit_vector(direction).unwrap_or(direction)
+    }
+}
+
 /// Returns a unit vector across the unit vector `along`, parallel to an axis if `along` is.
 pub(crate) fn unit_across(along: DVec3) -> DVec3 {
     let away = [DVec3::Y, DVec3::Z, DVec3::X][main_axis(along)];

@@ -14,8 +14,8 @@
 //!
 //! which has no root to take and in which the cosine of the cosine map cancels to pi.
 
-use crate::expr::{Expr, Function, Variable};
 use crate::scene::Map;
+use qrt_syntax::expr::{Expr, Function, Variable};
 
 /// The components x, y, z of a built-in map. [`Map::Auto`], on a surface that has no map of its own,
 /// is the cosine map.
@@ -81,7 +81,7 @@ pub fn jacobian(map: &[Expr; 3]) -> Expr {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Variables;
+    use qrt_syntax::expr::Variables;
     use std::f64::consts::PI;
 
     const MAPS: [Map; 2] = [Map::CosineHemisphere, Map::UniformHemisphere];

@@ -30,7 +30,6 @@ pub use lattice::ProductLattice;
 pub use net::{DigitalNet, MAX_DIMENSIONS, pixel_shift};
 
 use crate::scene::{Sampling, Sequence};
-use crate::syntax;
 use linear::LinearMap;
 use std::fmt;
 
@@ -330,22 +329,22 @@ pub enum SamplingError {
 
 impl SamplingError {
     /// Converts the error to a problem of the scene.
-    pub fn problem(self) -> syntax::Sampling {
+    pub fn problem(self) -> qrt_syntax::Sampling {
         match self {
-            Self::Dimensions { dimensions } => syntax::Sampling::Dimensions {
+            Self::Dimensions { dimensions } => qrt_syntax::Sampling::Dimensions {
                 dimensions,
                 most: MAX_DIMENSIONS,
             },
-            Self::PathBits { path_bits } => syntax::Sampling::PathBits {
+            Self::PathBits { path_bits } => qrt_syntax::Sampling::PathBits {
                 bits: path_bits,
                 most: MAX_PATH_BITS,
             },
-            Self::CoordinateBits { coordinate, bits } => syntax::Sampling::CoordinateBits {
+            Self::CoordinateBits { coordinate, bits } => qrt_syntax::Sampling::CoordinateBits {
                 coordinate: coordinate.to_string(),
                 bits,
                 most: MAX_COORDINATE_BITS,
             },
-            Self::LatticeBits { path_bits, sum } => syntax::Sampling::LatticeBits {
+            Self::LatticeBits { path_bits, sum } => qrt_syntax::Sampling::LatticeBits {
                 path: path_bits,
                 sum,
             },

@@ -1,6 +1,7 @@
 //! The camera's place and directions.
 
 use super::{Camera, Film};
+use crate::polygons::normalized;
 use glam::{DVec2, DVec3};
 
 /// The camera's coordinate system, in scene units.
@@ -29,8 +30,8 @@ impl Basis {
             }
             Camera::Orthographic(c) => (c.eye, c.target, c.up, 0.5 * c.height, false),
         };
-        let forward = (target - eye).normalize();
-        let right = forward.cross(up.normalize()).normalize();
+        let forward = normalized(target - eye);
+        let right = forward.cross(normalized(up)).normalize();
         Self {
             eye,
             forward,

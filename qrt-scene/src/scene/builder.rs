@@ -66,6 +66,7 @@ impl Default for Mesh {
             gltf: None,
             material: None,
             smooth: None,
+            colors: None,
             scale: 1.0,
             rotate: DVec3::ZERO,
             translate: DVec3::ZERO,

@@ -12,7 +12,7 @@ keyword! {
     MonteCarlo = "monte-carlo";
     /// The paper's: repetitions of counting, maximum likelihood over S.
     Paper = "paper";
-    /// The posterior mean of the paper's counting.
+    /// The posterior mean of repeated counting, by default with the sine window.
     PosteriorMean = "posterior-mean";
     /// Counting with a sine window.
     Sine = "sine";
@@ -66,6 +66,12 @@ impl Estimator {
     /// up and therefore takes a comparator of few bits.
     pub const fn reads_levels(self) -> bool {
         matches!(self, Self::PhaseMean | Self::Auto)
+    }
+
+    /// True if the estimator may read the colours of the paths that it measures: to count strata one by
+    /// one, or to run the mean-phase circuit.
+    pub const fn reads_colours(self) -> bool {
+        self.counts_strata() || self.reads_levels()
     }
 
     /// True if the estimator reads a phase register: it repeatedly runs the circuit of quantum

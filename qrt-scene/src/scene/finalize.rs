@@ -5,8 +5,9 @@ use super::{
     Data, DepthSampling, LightPoint, Lights, Mesh, MeshFormat, Sampling, Scene, Sequence, Sky,
     Square,
 };
-use crate::syntax::tree::{Kind, Node, Value};
-use crate::syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
+use crate::scene::decode;
+use qrt_syntax::tree::{Kind, Node, Value};
+use qrt_syntax::{Path, Place, Problem, Problems, Sky as Light, Structure, nearest};
 
 /// Sets `path_bits`, if it is not written, to the sum of all bits under the product lattice. The sum is
 /// clamped to the range, so that too large a sum is reported for the bits, not for a key that is not
@@ -76,7 +77,14 @@ pub(super) fn mesh(mesh: Mesh, node: &Node, at: &Place<'_>, problems: &mut Probl
         }
         [] => {
             // A misspelt key is reported as such.
-            let keys = ["material", "smooth", "scale", "rotate", "translate"];
+            let keys = [
+                "material",
+                "smooth",
+                "colors",
+                "scale",
+                "rotate",
+                "translate",
+            ];
             let all = names.into_iter().chain(keys);
             let is_meant =
                 |key: &str| nearest(key, all.clone()).is_some_and(|near| names.contains(&near));
@@ -170,10 +178,7 @@ pub(crate) fn sample_lens(scene: &mut Scene) {
 
 /// Returns the problem of `key`, in the record at `path`, beside `accuracy`.
 pub(crate) fn conflict(path: &Path, key: &'static str) -> Problem {
-    let problem = Problem::new(
-        path.name(key),
-        crate::syntax::Sampling::BesideAccuracy { key },
-    );
+    let problem = Problem::new(path.name(key), qrt_syntax::Sampling::BesideAccuracy { key });
     problem.also(Path::root().name("accuracy"))
 }
 
@@ -191,7 +196,7 @@ impl Shape for LightPointShape {
         if !matches!(node.value, Value::Scalar(_)) {
             return LightPoint::Bits(Self::BITS.decode(node, at, problems));
         }
-        match problems.word(node, at, "a point on a lamp", Self::WORDS) {
+        match decode::word(problems, node, at, "a point on a lamp", Self::WORDS) {
             Some(1) => LightPoint::None,
             _ => LightPoint::Auto,
         }

@@ -5,8 +5,8 @@ use super::reflectance::{REFLECTED, ReflectanceShape};
 use super::shape::{Array, Channels, Expression, Maybe, Shape, is_auto, number};
 use super::text::Data;
 use super::{RADIANCE, Reflectance, Rgb};
-use crate::syntax::tree::Node;
-use crate::syntax::{Place, Problems};
+use qrt_syntax::tree::Node;
+use qrt_syntax::{Place, Problems};
 
 variant! {
     /// The effect of a surface on light.

@@ -1,9 +1,9 @@
 //! The contents of a scene's mesh files, as plain data. The front end reads them
 //! ([`crate::front::meshes`]); [`crate::valid::validate`] checks them along with the scene.
 
-use super::{Material, Mesh, MeshFormat};
-use crate::syntax::{MeshFile, What};
+use super::{Material, Mesh, MeshFormat, Rgb};
 use glam::DVec3;
+use qrt_syntax::{MeshFile, What};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -31,13 +31,16 @@ pub struct Wanted {
     pub materials: bool,
     /// True if the normals of corners are read.
     pub normals: bool,
+    /// True if the colours of vertices are read. A file in which a vertex has none is then refused.
+    pub colours: bool,
 }
 
 impl Wanted {
-    /// All parts.
-    pub const ALL: Self = Self {
+    /// All parts except colours, which most files lack.
+    pub const USUAL: Self = Self {
         materials: true,
         normals: true,
+        colours: false,
     };
 
     /// The parts that the entry `mesh` of a scene uses.
@@ -45,6 +48,7 @@ impl Wanted {
         Self {
             materials: mesh.material.is_none(),
             normals: mesh.smooth.is_none(),
+            colours: mesh.is_coloured(),
         }
     }
 }
@@ -63,7 +67,7 @@ impl Meshes {
     }
 
     /// Maximum number of faces of the scene, meshes included.
-    pub fn most_faces(&self) -> usize {
+    pub(crate) fn most_faces(&self) -> usize {
         self.most_faces
     }
 
@@ -104,6 +108,8 @@ pub struct FileMesh {
     /// For each face, the unit normals of its corners. Empty if the mesh is flat or if normals were not
     /// wanted.
     pub normals: Vec<[DVec3; 3]>,
+    /// For each face, the colours of its corners, linear RGB from 0 to 1. Empty if colours were not wanted.
+    pub colours: Vec<[Rgb; 3]>,
     /// The materials of the faces; empty if they were not wanted.
     pub materials: Vec<FileMaterial>,
     /// The files that were read: the mesh file itself, then the files that it names.
@@ -140,7 +146,7 @@ pub struct FileMaterial {
     pub place: FilePlace,
 }
 
-/// An error of a mesh file, or a warning; codes are `QRT0319` to `QRT0352`.
+/// An error of a mesh file, or a warning; codes are `QRT0319` to `QRT0354`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileError {
     /// The problem.

@@ -10,6 +10,7 @@ mod builder;
 pub(crate) mod decode;
 mod estimator;
 pub(crate) mod finalize;
+pub(crate) mod invalid;
 mod material;
 pub mod meshes;
 mod parameters;
@@ -22,8 +23,7 @@ pub(crate) mod shape;
 pub mod text;
 mod uncompute;
 
-use crate::syntax::tree::{Node, Span, Value};
-use crate::syntax::{Datum, Place, Problems};
+use crate::polygons::normalized;
 pub use basis::Basis;
 pub use builder::SceneBuilder;
 pub use estimator::Estimator;
@@ -32,10 +32,13 @@ pub use material::{
     Bsdf, Dielectric, Emitter, Ggx, Jacobian, Lambertian, Material, Metal, Mirror, Phong,
 };
 pub use parameters::{
-    Accuracy, Budget, Circuit, Comparator, ComparatorAt, Counting, Nearest, Precision,
+    Accuracy, Budget, Circuit, Comparator, ComparatorAt, Counting, DEFAULT_FRACTION, Nearest,
+    Precision,
 };
 pub use primitives::{Cuboid, Disc, Quad, Sphere, Triangle};
 pub use qrt_circuit::quantum::Window;
+use qrt_syntax::tree::{Node, Span, Value};
+use qrt_syntax::{Datum, Place, Problems};
 use record::{keyword, record, variant};
 pub use reflectance::{Checker, Pattern, Reflectance};
 use shape::{
@@ -178,6 +181,11 @@ impl Sky {
         [of(self.horizon), of(self.zenith)]
     }
 
+    /// The unit vector towards the zenith.
+    pub fn upwards(&self) -> DVec3 {
+        normalized(self.up)
+    }
+
     /// True if the sky gives light in any direction and channel.
     pub fn shines(&self) -> bool {
         self.gradient()
@@ -203,7 +211,7 @@ record! {
 
 impl Sun {
     /// True if the sun gives light in any channel.
-    pub fn shines(&self) -> bool {
+    pub(crate) fn shines(&self) -> bool {
         self.radiance.iter().any(|&channel| channel > 0.0)
     }
 }
@@ -245,12 +253,24 @@ record! {
     /// them by their smoothing group (`s`). Degrees: by the mean normal of the faces around a corner that make at
     /// most this angle with the face; 0 is flat.
     pub smooth: Option<f64> = AutoOr(number(0.0, 180.0)), or None;
+    /// The use of the colours at the vertices of the file; without the key they are not used, and a warning says so.
+    pub colors: Option<MeshColors> = Maybe(word::<MeshColors>()), or None;
     /// The factor of its size; default 1.
     pub scale: f64 = LENGTH, or 1.0;
     /// Degrees about x, then y, then z; default none.
     pub rotate: DVec3 = point(), or DVec3::ZERO;
     /// Added to every point, in scene units; default none.
     pub translate: DVec3 = point(), or DVec3::ZERO;
+}
+
+keyword! {
+    /// The use of the colours at the vertices of a mesh file.
+    pub enum MeshColors = "a use of colours";
+    /// The colours are not used.
+    None = "none";
+    /// A factor of the albedo or the reflectance: linear RGB from 0 to 1, interpolated over each face. Every vertex
+    /// of the file has one.
+    Vertices = "vertices";
 }
 
 /// The format of a mesh file.
@@ -277,6 +297,11 @@ impl MeshFormat {
 }
 
 impl Mesh {
+    /// True if the colours at its vertices are used.
+    pub(crate) fn is_coloured(&self) -> bool {
+        self.colors == Some(MeshColors::Vertices)
+    }
+
     /// Returns the format and the name of the mesh's file; `None` if the mesh has no file or
     /// several.
     pub fn file(&self) -> Option<(MeshFormat, &str)> {

@@ -5,6 +5,9 @@ use super::shape::{AutoOr, Maybe, number, whole, word};
 use super::uncompute::UncomputeShape;
 use super::{Estimator, LENGTH, Uncompute, Window};
 
+/// Fraction bits under `precision: { fraction: auto }`.
+pub const DEFAULT_FRACTION: u32 = 16;
+
 record! {
     /// Width of the circuit's fixed-point numbers.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,12 +23,19 @@ record! {
     /// Its qubits, c: a colour is compared with 2^c thresholds; default 10. 0 suits colours that are 0
     /// or the scale.
     pub bits: u32 = whole::<u32>(0, 30), or 10;
-    /// The positions of the comparators, with h = scale / 2^bits.
+    /// The positions of the thresholds, with h = scale / 2^bits.
     pub at: ComparatorAt = word::<ComparatorAt>(), or ComparatorAt::Midpoints;
 }
 
+impl Comparator {
+    /// Maximum number of strata of the comparator: each halving fixes one bit.
+    pub const fn most_strata(self) -> u32 {
+        self.bits + 1
+    }
+}
+
 keyword! {
-    /// The positions of the comparators, with h = scale / 2^bits.
+    /// The positions of the thresholds, with h = scale / 2^bits.
     pub enum ComparatorAt = "a comparator position";
     /// At (y + 1/2) h.
     Midpoints = "midpoints";
@@ -91,7 +101,7 @@ record! {
 keyword! {
     /// The way to keep the nearest intersection.
     pub enum Nearest = "a way to keep the nearest hit";
-    /// One record, and a flag per primitive.
+    /// The distance and the face's number so far, and a flag per primitive.
     Running = "running";
     /// All intersections and nearest records, as in the paper.
     Paper = "paper";
@@ -103,7 +113,7 @@ record! {
     pub struct Accuracy = "accuracy";
     /// Of a channel of a pixel, relative to the picture's mean radiance over pixels and channels.
     pub error: f64 = number(0.0, 1.0).above().below();
-    /// The probability that a channel of a pixel is within the error.
+    /// The fraction of all channels of all pixels that are within the error.
     pub confidence: f64 = number(0.0, 1.0).above().below();
 }
 

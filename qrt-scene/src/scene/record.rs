@@ -24,9 +24,9 @@ macro_rules! record {
 
         impl $crate::scene::shape::Part for $name {
             fn decode(
-                node: &$crate::syntax::tree::Node,
-                at: &$crate::syntax::Place<'_>,
-                problems: &mut $crate::syntax::Problems,
+                node: &qrt_syntax::tree::Node,
+                at: &qrt_syntax::Place<'_>,
+                problems: &mut qrt_syntax::Problems,
             ) -> Self {
                 use $crate::scene::decode::Field;
                 #[allow(unused_imports, reason = "a record of words alone needs one of them")]
@@ -35,7 +35,7 @@ macro_rules! record {
                     name: stringify!($field),
                     required: record!(@required $($default)?),
                 }),*];
-                if !problems.record(node, at, $noun, FIELDS) {
+                if !$crate::scene::decode::record(problems, node, at, $noun, FIELDS) {
                     return Self::fallback();
                 }
                 let value = Self { $( $field: {
@@ -56,8 +56,8 @@ macro_rules! record {
 
             fn check(
                 &self,
-                at: &$crate::syntax::Place<'_>,
-                problems: &mut $crate::syntax::Problems,
+                at: &qrt_syntax::Place<'_>,
+                problems: &mut qrt_syntax::Problems,
             ) {
                 use $crate::scene::shape::Shape as _;
                 $( $shape.check(&self.$field, &at.key(stringify!($field)), problems); )*
@@ -140,11 +140,11 @@ macro_rules! variant {
 
         impl $crate::scene::shape::Part for $name {
             fn decode(
-                node: &$crate::syntax::tree::Node,
-                at: &$crate::syntax::Place<'_>,
-                problems: &mut $crate::syntax::Problems,
+                node: &qrt_syntax::tree::Node,
+                at: &qrt_syntax::Place<'_>,
+                problems: &mut qrt_syntax::Problems,
             ) -> Self {
-                match problems.variant(node, at, $noun, Self::NAMES) {
+                match $crate::scene::decode::variant(problems, node, at, $noun, Self::NAMES) {
                     $( Some(($key, node)) => {
                         let part = <$part as $crate::scene::shape::Part>::decode(
                             node, &at.key($key), problems,
@@ -163,8 +163,8 @@ macro_rules! variant {
 
             fn check(
                 &self,
-                at: &$crate::syntax::Place<'_>,
-                problems: &mut $crate::syntax::Problems,
+                at: &qrt_syntax::Place<'_>,
+                problems: &mut qrt_syntax::Problems,
             ) {
                 match self {
                     $( Self::$kind(part) => {

@@ -4,9 +4,9 @@ use super::record::{record, variant};
 use super::shape::{Array, Colour, Part, Shape, number, part};
 use super::text::Data;
 use super::{LENGTH, Rgb};
-use crate::syntax::tree::{Node, Value};
-use crate::syntax::{Datum, Place, Problems};
 use glam::DVec3;
+use qrt_syntax::tree::{Node, Value};
+use qrt_syntax::{Datum, Place, Problems};
 
 /// The shape of one reflected colour.
 pub(super) const REFLECTED: Colour =
@@ -62,7 +62,7 @@ impl Reflectance {
     }
 
     /// True if nothing is reflected anywhere.
-    pub fn is_black(&self) -> bool {
+    pub(crate) fn is_black(&self) -> bool {
         self.colours().iter().all(|colour| *colour == [0.0; 3])
     }
 }

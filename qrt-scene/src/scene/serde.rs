@@ -6,8 +6,9 @@
 
 use super::shape::Part;
 use super::text::Data;
-use crate::syntax::tree::{Entry, Node, Scalar, Span, Value};
-use crate::syntax::{InvalidScene, Place, Problems, number};
+use crate::scene::invalid::InvalidScene;
+use qrt_syntax::tree::{Entry, Node, Scalar, Span, Value};
+use qrt_syntax::{Place, Problems, number};
 use serde_core::de::{Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde_core::ser::{SerializeMap as _, SerializeSeq as _, Serializer};
 use serde_core::{Deserialize, Serialize};

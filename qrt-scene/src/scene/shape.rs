@@ -9,9 +9,10 @@ pub(crate) use collections::{
 };
 pub(crate) use described::{FieldSchema, one_of, record_schema, variant_schema};
 
+use crate::scene::decode;
 use crate::scene::text::Data;
-use crate::syntax::tree::{Kind, Node, Value};
-use crate::syntax::{Datum, Expected, Place, Problems, Range};
+use qrt_syntax::tree::{Kind, Node, Value};
+use qrt_syntax::{Datum, Expected, Place, Problems, Range};
 use std::marker::PhantomData;
 
 /// The definition of how a value is read, checked, written and described.
@@ -84,7 +85,7 @@ pub(crate) const fn word<T>() -> WordShape<T> {
 impl<T: Keyword> Shape for WordShape<T> {
     type Value = T;
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> T {
-        let index = problems.word(node, at, T::NOUN, T::NAMES);
+        let index = decode::word(problems, node, at, T::NOUN, T::NAMES);
         index.map_or(T::VALUES[0], |index| T::VALUES[index])
     }
     fn fallback(&self) -> T {
@@ -177,7 +178,7 @@ fn read_number(
         problems.refuse(at, Datum::Unrepresentable { text, is_small });
         return None;
     }
-    problems.wrong_type(node, at, expected);
+    decode::wrong_type(problems, node, at, expected);
     None
 }
 
@@ -250,7 +251,7 @@ impl<T: Copy + PartialOrd + Into<u64> + TryFrom<u64>> Shape for Whole<T> {
             return self.low;
         };
         if value.fract() != 0.0 && value.is_finite() {
-            problems.wrong_type(node, at, Expected::Whole);
+            decode::wrong_type(problems, node, at, Expected::Whole);
             return self.low;
         }
         let whole = (value >= 0.0).then_some(value as u64);
@@ -293,7 +294,7 @@ impl Shape for Text {
         match &node.value {
             Value::Scalar(scalar) if scalar.kind() == Kind::Text => scalar.text.clone(),
             _ => {
-                problems.wrong_type(node, at, Expected::Text);
+                decode::wrong_type(problems, node, at, Expected::Text);
                 self.fallback()
             }
         }
@@ -328,7 +329,7 @@ impl Shape for Expression {
         {
             return scalar.text.clone();
         }
-        problems.wrong_type(node, at, Expected::Expression);
+        decode::wrong_type(problems, node, at, Expected::Expression);
         self.fallback()
     }
     fn fallback(&self) -> String {

@@ -1,7 +1,7 @@
 //! Plain data as text: the scene printed back as YAML, its canonical text and fingerprint, and the
 //! JSON Schema.
 
-use crate::syntax::number;
+use qrt_syntax::number;
 use std::fmt::Write as _;
 
 /// Untyped data to which a scene is encoded: JSON's model, with ordered entries.
@@ -53,7 +53,7 @@ impl Data {
 
     /// Formats the data as JSON on indented lines; short lists and maps stay on one line. The text
     /// ends in a line feed.
-    pub fn to_json(&self) -> String {
+    pub(crate) fn to_json(&self) -> String {
         let mut out = String::new();
         self.json(&mut out, 0);
         out.push('\n');

@@ -5,8 +5,9 @@
 
 use super::shape::Shape;
 use super::text::Data;
-use crate::syntax::tree::{Node, Value};
-use crate::syntax::{Place, Problems, Structure};
+use crate::scene::decode;
+use qrt_syntax::tree::{Node, Value};
+use qrt_syntax::{Place, Problems, Structure};
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -226,7 +227,7 @@ impl Shape for UncomputeShape {
                     );
                 }
                 _ => {
-                    problems.word(node, at, NOUN, NAMES);
+                    decode::word(problems, node, at, NOUN, NAMES);
                 }
             }
             self.fallback()

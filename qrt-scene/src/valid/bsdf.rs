@@ -11,10 +11,10 @@
 //! proven by interval arithmetic, over the box of the faces.
 
 use super::CustomBsdf;
-use crate::expr::{Domain, Expr, Variable, Variables};
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
-use crate::syntax::{Bsdf as Fault, Path, Problem};
+use qrt_syntax::expr::{Domain, Expr, Variable, Variables};
+use qrt_syntax::{Bsdf as Fault, Path, Problem};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
@@ -329,7 +329,7 @@ pub fn weight_bound(
 /// cos_i. Common factors then cancel: `0.1/cos_i` under the uniform map is a constant.
 ///
 /// ```
-/// use qrt_scene::expr::{Expr, Variable};
+/// use qrt_syntax::expr::{Expr, Variable};
 /// use qrt_scene::{Map, sampling::maps, valid::bsdf};
 /// let map = maps::builtin(Map::UniformHemisphere);
 /// let value = Expr::parse("0.5/pi/cos_i", &Variable::ALL).unwrap();

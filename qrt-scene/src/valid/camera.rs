@@ -2,8 +2,10 @@
 //! eye is inside or outside each sphere.
 
 use super::Ball;
+use crate::polygons::normalized;
 use crate::scene::Camera;
-use crate::syntax::{Camera as Fault, Path, Problem, Problems};
+use glam::DVec3;
+use qrt_syntax::{Camera as Fault, Path, Problem, Problems};
 
 /// Minimum sine of the angle between view and `up`: below it, rounding decides the direction to the
 /// right.
@@ -26,17 +28,17 @@ pub(super) fn check(camera: &Camera, problems: &mut Problems) {
     {
         return;
     }
-    if up.length() == 0.0 {
+    if up == DVec3::ZERO {
         problems.add(path.key("up"), Fault::NoUp);
     }
     let view = target - eye;
+    // An eye whose squared distance from the target vanishes stands there.
     if view.length() == 0.0 {
         let problem = Problem::new(path.key("target"), Fault::NoView);
         problems.push(problem.also(path.key("eye")));
-    } else if up.length() > 0.0 {
-        let sine = view.normalize().cross(up.normalize()).length();
-        // A length below 1e-154 squares to 0, so that its direction is NaN.
-        if sine.is_nan() || sine < LEAST_SINE {
+    } else if up != DVec3::ZERO {
+        let sine = normalized(view).cross(normalized(up)).length();
+        if sine < LEAST_SINE {
             problems.add(path.key("up"), Fault::UpAlongView);
         }
     }

@@ -3,13 +3,8 @@
 //! of few bits.
 
 use crate::scene::{Estimator, Scene};
-use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 use qrt_circuit::quantum::MAX_LEVEL_BITS;
-
-/// Maximum number of strata of a comparator of `comparator_bits` bits: each halving fixes one bit.
-pub const fn most_strata(comparator_bits: u32) -> u32 {
-    comparator_bits + 1
-}
+use qrt_syntax::{Path, Problem, Problems, Sampling as Fault};
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     check_strata(scene, problems);
@@ -52,7 +47,7 @@ fn check_strata(scene: &Scene, problems: &mut Problems) {
         return;
     }
     let bits = scene.comparator.bits;
-    let most = most_strata(bits);
+    let most = scene.comparator.most_strata();
     if strata > most {
         let what = Fault::TooManyStrata { strata, bits, most };
         problems.push(Problem::new(path, what).also(Path::root().key("comparator").key("bits")));

@@ -8,13 +8,13 @@ use crate::scene::finalize::second_file;
 use crate::scene::meshes::{FileError, FileMesh, Meshes};
 use crate::scene::shape::LARGEST;
 use crate::scene::{Cuboid, Disc, Geometry, Lambertian, Material, Mesh, MeshFormat, Scene};
-use crate::syntax::{
+use crate::valid::bsdf::Faces;
+use crate::valid::{Ball, ColouredFace, Polygon, Scatter, SmoothFace, Surface, simple};
+use glam::{BVec3, DVec3};
+use qrt_syntax::{
     Material as Naming, Mesh as Unplaced, MeshFile, Path, Problem, Problems, Shape as Fault,
     Structure, Triangles, nearest,
 };
-use crate::valid::bsdf::Faces;
-use crate::valid::{Ball, Polygon, Scatter, SmoothFace, Surface, simple};
-use glam::{BVec3, DVec3};
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
@@ -50,6 +50,7 @@ const MOST_KEYWORDS: usize = 16;
 pub(super) struct Shapes {
     pub(super) polygons: Vec<Polygon>,
     pub(super) smooth: Vec<SmoothFace>,
+    pub(super) coloured: Vec<ColouredFace>,
     pub(super) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(super) firsts: Vec<usize>,
@@ -82,6 +83,7 @@ pub(super) fn polygons(
         names,
         out: vec![],
         smooth: vec![],
+        coloured: vec![],
         pairs_left: MOST_PAIRS,
         balls: vec![],
         spheres: HashSet::new(),
@@ -137,6 +139,7 @@ pub(super) fn polygons(
     Shapes {
         polygons: build.out,
         smooth: build.smooth,
+        coloured: build.coloured,
         balls: build.balls,
         firsts,
         files: build.files.into_iter().collect(),
@@ -152,6 +155,8 @@ struct Build<'a> {
     out: Vec<Polygon>,
     /// The polygons so far that are not flat.
     smooth: Vec<SmoothFace>,
+    /// The polygons so far with colours of their corners.
+    coloured: Vec<ColouredFace>,
     /// Number of pairs of triangles that may still be compared for means of normals.
     pairs_left: u64,
     balls: Vec<Ball>,
@@ -397,13 +402,16 @@ impl<'a> Build<'a> {
                 return;
             }
         };
-        if read.files.iter().any(|file| !self.files.contains(file)) {
-            for note in &read.notes {
-                let note = Problem::new(place.clone(), note.clone().problem());
-                // The mesh may have been placed with another choice of materials.
-                if !self.warnings.iter().any(|known| known.what == note.what) {
-                    self.warnings.push(note);
-                }
+        let is_new = read.files.iter().any(|file| !self.files.contains(file));
+        let is_meant = |note: &&FileError| match *note.what {
+            MeshFile::ColoursUnused => mesh.colors.is_none(),
+            _ => is_new,
+        };
+        for note in read.notes.iter().filter(is_meant) {
+            let note = Problem::new(place.clone(), note.clone().problem());
+            // The mesh may have been placed with another choice of materials.
+            if !self.warnings.iter().any(|known| known.what == note.what) {
+                self.warnings.push(note);
             }
         }
         self.files.extend(read.files.iter().cloned());
@@ -424,6 +432,16 @@ impl<'a> Build<'a> {
         let Some(normals) = self.normals(mesh, read, &path.key("smooth")) else {
             return;
         };
+        if mesh.is_coloured() {
+            match mesh.material.as_deref() {
+                None => self.check_colourable(&own, &place),
+                // An unknown material has been reported.
+                Some(name) => {
+                    let known = self.names.get(name).copied();
+                    self.check_colourable(known.as_slice(), &path.key("material"));
+                }
+            }
+        }
         self.out.reserve_exact(read.faces.len());
         let mut flat = Vec::new();
         let mut bare = Vec::new();
@@ -447,6 +465,12 @@ impl<'a> Build<'a> {
                     let polygon = self.out.len();
                     self.smooth
                         .extend(normals.map(|normals| SmoothFace { polygon, normals }));
+                }
+                // White changes nothing.
+                let colours = read.colours.get(index).filter(|c| **c != [[1.0; 3]; 3]);
+                if let Some(&colours) = colours.filter(|_| !is_black) {
+                    let polygon = self.out.len();
+                    self.coloured.push(ColouredFace { polygon, colours });
                 }
                 self.out.push(triangle(vertices, surface));
             }
@@ -493,6 +517,26 @@ impl<'a> Build<'a> {
                     .add(path.clone(), Unplaced::ManyAround { count });
                 None
             }
+        }
+    }
+
+    /// Reports the first of a coloured mesh's `surfaces` whose tint is not one colour. Black surfaces scatter nothing, so
+    /// that colours do not matter there.
+    fn check_colourable(&mut self, surfaces: &[u32], place: &Path) {
+        let uncoloured = |surface: u32| {
+            let own = self.scene.materials.get(surface as usize);
+            let surface = self.surfaces.get(surface as usize)?;
+            let kind = match (own, &surface.scatter) {
+                (Some((_, Material::Bsdf(_))), _) | (_, Scatter::Custom(_)) => "bsdf",
+                (_, Scatter::Dielectric(_)) => "dielectric",
+                (_, Scatter::Phong(_)) => "phong",
+                _ => surface.checker().map(|_| "checker")?,
+            };
+            let name = surface.name.clone();
+            Some(Unplaced::Uncoloured { name, kind })
+        };
+        if let Some(what) = surfaces.iter().copied().find_map(uncoloured) {
+            self.problems.add(place.clone(), what);
         }
     }
 

@@ -3,8 +3,8 @@
 use super::{Ball, Scatter, ValidScene};
 use crate::polygons::{Overlap, first_overlap, stage_units};
 use crate::scene::Geometry;
-use crate::syntax::{Glass, Problem, Problems};
 use glam::DVec3;
+use qrt_syntax::{Glass, Problem, Problems};
 
 /// Minimum width of an overlap, relative to the size of the scene: narrower overlaps come from
 /// meshes with rounded corners.

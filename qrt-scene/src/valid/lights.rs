@@ -4,8 +4,8 @@ use super::{Polygon, Scatter, Surface, ValidScene};
 use crate::lights::{LitFace, Reached, is_parallelogram, strongest_of};
 use crate::sampling::MAX_DIMENSIONS;
 use crate::scene::{LightPoint, Lights, Sampling, Sequence};
-use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
 use glam::DVec3;
+use qrt_syntax::{Path, Problem, Problems, Sampling as Fault};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -195,6 +195,9 @@ fn cut_lamps(valid: &mut ValidScene) {
     }
     moved.push(cut.len());
     for face in &mut valid.smooth {
+        face.polygon = moved[face.polygon];
+    }
+    for face in &mut valid.coloured {
         face.polygon = moved[face.polygon];
     }
     for first in &mut valid.firsts {

@@ -16,12 +16,11 @@ mod parameters;
 mod sampling;
 mod sky;
 
-pub use counting::most_strata;
 pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
 
-use crate::expr::{Expr, Variable};
 use crate::lights::Cone;
+pub use crate::scene::invalid::InvalidScene;
 use crate::scene::meshes::Meshes;
 use crate::scene::shape::Part;
 use crate::scene::text::Fingerprint;
@@ -29,9 +28,9 @@ use crate::scene::{
     Bsdf, Checker, Dielectric, Ggx, Lambertian, Material, Metal, Mirror, Phong, Reflectance, Rgb,
     Scene, Sun,
 };
-pub use crate::syntax::InvalidScene;
-use crate::syntax::{self, Path, Place, Problem, Problems};
 use glam::DVec3;
+use qrt_syntax::expr::{Expr, Variable};
+use qrt_syntax::{Path, Place, Problem, Problems};
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -44,6 +43,7 @@ pub struct ValidScene {
     pub(crate) materials: Vec<Surface>,
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) smooth: Vec<SmoothFace>,
+    pub(crate) coloured: Vec<ColouredFace>,
     pub(crate) balls: Vec<Ball>,
     /// The first polygon of each primitive.
     pub(crate) firsts: Vec<usize>,
@@ -73,17 +73,22 @@ impl Surface {
         self.radiance.iter().any(|&channel| channel > 0.0)
     }
 
-    /// The checker of the surface's albedo or reflectance, if it has one.
-    pub fn checker(&self) -> Option<&Checker> {
+    /// The surface's albedo or reflectance. `None` for materials without exactly one.
+    pub fn tint(&self) -> Option<&Reflectance> {
         match &self.scatter {
-            Scatter::Lambertian(lobe) => lobe.albedo.checker(),
-            Scatter::Mirror(lobe) => lobe.reflectance.checker(),
-            Scatter::Ggx(lobe) => lobe.reflectance.checker(),
-            Scatter::Metal(lobe) => lobe.reflectance.checker(),
+            Scatter::Lambertian(lobe) => Some(&lobe.albedo),
+            Scatter::Mirror(lobe) => Some(&lobe.reflectance),
+            Scatter::Ggx(lobe) => Some(&lobe.reflectance),
+            Scatter::Metal(lobe) => Some(&lobe.reflectance),
             Scatter::Black | Scatter::Dielectric(_) | Scatter::Phong(_) | Scatter::Custom(_) => {
                 None
             }
         }
+    }
+
+    /// The checker of the surface's albedo or reflectance, if it has one.
+    pub fn checker(&self) -> Option<&Checker> {
+        self.tint()?.checker()
     }
 
     /// True if paths may continue beyond the surface. The map of a user-defined BSDF may lead
@@ -185,6 +190,16 @@ impl SmoothFace {
     }
 }
 
+/// A triangle whose albedo or reflectance is multiplied by colours that are interpolated between its corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColouredFace {
+    /// The triangle, as an index into [`ValidScene::polygons`]. Its surface has a tint ([`Surface::tint`]) of one
+    /// colour.
+    pub polygon: usize,
+    /// Linear RGB from 0 to 1, by corner.
+    pub colours: [Rgb; 3],
+}
+
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
@@ -253,6 +268,10 @@ impl ValidScene {
             .binary_search_by_key(&polygon, |face| face.polygon);
         found.ok().map(|place| &self.smooth[place])
     }
+    /// The polygons with colours of their corners, in the order of [`ValidScene::polygons`].
+    pub fn coloured_faces(&self) -> &[ColouredFace] {
+        &self.coloured
+    }
     /// All spheres of the scene.
     pub fn balls(&self) -> &[Ball] {
         &self.balls
@@ -317,8 +336,9 @@ impl ValidScene {
     }
 
     /// Returns the 128-bit FNV-1a hash of the scene's canonical text (see [`Scene::fingerprint`]),
-    /// of the corners of all polygons and the normals there, bit for bit, and of the surfaces that mesh files add. It
-    /// changes with everything that changes the picture, in the scene or in a mesh file.
+    /// of the corners of all polygons with the normals and colours there, bit for bit, and of the
+    /// surfaces that mesh files add. It changes with everything that changes the picture, in the scene
+    /// or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
@@ -359,6 +379,12 @@ impl ValidScene {
         for face in &self.smooth {
             print = print.and(&(face.polygon as u64).to_le_bytes());
             for value in face.normals.iter().flat_map(DVec3::to_array) {
+                print = print.and(&value.to_bits().to_le_bytes());
+            }
+        }
+        for face in &self.coloured {
+            print = print.and(&(face.polygon as u64).to_le_bytes());
+            for value in face.colours.as_flattened() {
                 print = print.and(&value.to_bits().to_le_bytes());
             }
         }
@@ -415,6 +441,7 @@ pub(crate) fn check(
     let geometry::Shapes {
         polygons,
         smooth,
+        coloured,
         balls,
         firsts,
         files,
@@ -424,6 +451,7 @@ pub(crate) fn check(
         materials,
         polygons,
         smooth,
+        coloured,
         balls,
         firsts,
         files,
@@ -516,7 +544,7 @@ fn too_many(scene: &Scene, materials: &Path) -> Option<Problem> {
             }
         }
     }
-    let what = syntax::Expression::TooMany {
+    let what = qrt_syntax::Expression::TooMany {
         minutes: minutes.ceil() as u64,
         most: bsdf::MOST_MINUTES,
     };
@@ -547,7 +575,7 @@ fn phong_energy(phong: &Phong, path: &Path) -> Option<Problem> {
         .find(|(_, sum)| *sum > 1.0 + f64::EPSILON)?;
     let channel = ["red", "green", "blue"][channel];
     let path = path.key("phong");
-    let what = syntax::Material::GainsEnergy { sum, channel };
+    let what = qrt_syntax::Material::GainsEnergy { sum, channel };
     Some(Problem::new(path.key("specular"), what).also(path.key("diffuse")))
 }
 

@@ -8,9 +8,9 @@ mod view;
 use super::lights::MOST_PAIRS;
 use super::{Ball, Polygon, Scatter, ValidScene};
 use crate::polygons::{bounds, overlap};
-use crate::scene::Geometry;
-use crate::syntax::{Material, Path, Problem, Unlit};
+use crate::scene::{DEFAULT_FRACTION, Geometry};
 use glam::DVec3;
+use qrt_syntax::{Material, Path, Problem, Sky, Unlit};
 use std::collections::HashSet;
 use view::View;
 
@@ -28,7 +28,49 @@ pub(super) fn warnings(valid: &ValidScene) -> Vec<Problem> {
     let mut found: Vec<Problem> = unused_materials(valid).collect();
     found.extend(unlit(valid));
     found.extend(opposite_lamps(valid));
+    found.extend(faint_sunlight(valid));
     found
+}
+
+/// Fewest levels that a sunlit surface should have.
+const LEAST_LEVELS: f64 = 16.0;
+
+/// Warns if a sunlit surface has few levels of colours, because some surface may show the sun, whose radiance is then
+/// the scale of colours.
+fn faint_sunlight(valid: &ValidScene) -> Option<Problem> {
+    let (cone, _) = valid.sun()?;
+    let scene = &valid.scene;
+    let fraction = scene.precision.fraction.unwrap_or(DEFAULT_FRACTION);
+    let levels = 1_u64 << scene.comparator.bits.min(fraction);
+    let lit = cone.sin.powi(2) * levels as f64;
+    let may_show = |surface: u32| match &valid.materials[surface as usize].scatter {
+        Scatter::Black | Scatter::Lambertian(_) | Scatter::Custom(_) => false,
+        Scatter::Phong(phong) => phong.specular != [0.0; 3],
+        Scatter::Mirror(_) | Scatter::Dielectric(_) | Scatter::Ggx(_) | Scatter::Metal(_) => true,
+    };
+    // The first ray comes from the eye.
+    let is_shown = scene.sampling.depths.len() > 1 && valid.surface_of_faces().any(may_show);
+    if lit >= LEAST_LEVELS || !is_shown {
+        return None;
+    }
+    let square = 2.0 * LEAST_LEVELS / levels as f64;
+    let angle = (2.0 * libm::asin(square.sqrt()).to_degrees()).ceil();
+    // Not a number, or half of all directions, if no sun has that many levels.
+    let larger = (angle < 180.0).then(|| {
+        let sin = libm::sin((angle / 2.0).to_radians());
+        [angle, two_digits((cone.sin / sin).powi(2))]
+    });
+    let what = Sky::FaintSunlight {
+        lit: two_digits(lit),
+        levels,
+        larger,
+    };
+    Some(Problem::new(Path::root().name("sun"), what))
+}
+
+/// Rounds a number above 0 to two significant digits.
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// Materials of the scene that no primitive names and no mesh uses.

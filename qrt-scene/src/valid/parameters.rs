@@ -3,7 +3,7 @@
 use super::{ValidScene, counting, lights, sampling};
 use crate::scene::shape::Part;
 use crate::scene::{Circuit, Comparator, Counting, Precision, Sampling};
-use crate::syntax::{Place, Problem, Problems};
+use qrt_syntax::{Place, Problem, Problems};
 use std::sync::OnceLock;
 
 /// The parameters of a scene that trade accuracy for cost. The limit of the picture depends on none

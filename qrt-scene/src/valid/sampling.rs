@@ -5,7 +5,7 @@ use crate::sampling::{MAX_DIMENSIONS, MAX_PATH_BITS};
 use crate::scene::{
     Comparator, Counting, LightPoint, Map, Precision, Sampling, Scene, Sequence, finalize,
 };
-use crate::syntax::{Path, Problem, Problems, Sampling as Fault};
+use qrt_syntax::{Path, Problem, Problems, Sampling as Fault};
 
 /// Maximum number of bits of path index and comparator together: counts of their basis states stay
 /// within 64-bit words.

@@ -1,8 +1,8 @@
 //! Checks that a sky has one radiance or a gradient, and that it and the sun have a direction.
 
 use crate::scene::{Scene, Sky, finalize};
-use crate::syntax::{Path, Problems, Sky as Fault};
 use glam::DVec3;
+use qrt_syntax::{Path, Problems, Sky as Fault};
 
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     if let Some(sky) = &scene.sky {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::scene::{Accuracy, Camera, Estimator, Lambertian, Material};
-use crate::syntax::codes;
+use qrt_syntax::codes;
 
 fn scene() -> Scene {
     let text = "{ name: a, film: { width: 1, height: 1 }, materials: {}, geometry: [], \
@@ -64,6 +64,24 @@ fn cameras_of_any_size_have_a_direction() {
         }
         assert_eq!(codes_of(scaled), [""; 0], "{size}");
     }
+    let tiny = [1.0, 1e-200, 1e-310].map(|size| {
+        let mut scaled = scene();
+        if let Camera::Perspective(camera) = &mut scaled.camera {
+            camera.up = DVec3::Y * size;
+        }
+        let sky = crate::scene::Sky {
+            radiance: Some([1.0; 3]),
+            horizon: None,
+            zenith: None,
+            up: DVec3::new(0.0, 2.0, 0.0) * size,
+        };
+        scaled.sky = Some(sky);
+        assert_eq!(codes_of(scaled.clone()), [""; 0], "{size}");
+        assert_eq!(sky.upwards(), DVec3::Y, "{size}");
+        let basis = crate::scene::Basis::new(&scaled.camera);
+        [basis.right, basis.up, basis.forward]
+    });
+    assert_eq!(tiny, [tiny[0]; 3]);
     let mut far = scene();
     if let Camera::Perspective(camera) = &mut far.camera {
         camera.target = camera.eye + DVec3::splat(1e-200);

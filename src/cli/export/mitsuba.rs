@@ -12,18 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 pub(super) fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
-    let circuits = [
-        ("--part", args.part.is_some()),
-        ("--pixel", args.pixel.is_some()),
-        ("--channel", args.channel.is_some()),
-        ("--stratum", args.stratum.is_some()),
-        ("--iterates", args.iterates.is_some()),
-        ("--slope", args.slope.is_some()),
-        ("--reference", args.reference.is_some()),
-        ("--seed", args.seed.is_some()),
-        ("--max-gates", args.max_gates.is_some()),
-    ];
-    if let Some((flag, _)) = circuits.into_iter().find(|(_, given)| *given) {
+    if let Some(flag) = args.of_circuits() {
         return Err(Failure::Usage(format!(
             "{flag} is of a pixel's circuit, and --format mitsuba writes the scene: leave it out"
         )));

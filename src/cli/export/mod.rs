@@ -28,7 +28,7 @@ use qrt_runtime::plan::{PlanFigures, PlanOptions};
 use qrt_runtime::replace_file::replace_file;
 use qrt_runtime::workers::{Progress, Workers};
 use qrt_scene::Window;
-use qrt_scene::valid::{ValidScene, most_strata};
+use qrt_scene::valid::ValidScene;
 use serde_json::{Map, Value, json};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::ops::Range;
@@ -167,6 +167,23 @@ pub(crate) struct ExportArgs {
 }
 
 impl ExportArgs {
+    /// Returns the first given option that is of a pixel's circuit.
+    fn of_circuits(&self) -> Option<&'static str> {
+        let circuits = [
+            ("--part", self.part.is_some()),
+            ("--pixel", self.pixel.is_some()),
+            ("--channel", self.channel.is_some()),
+            ("--stratum", self.stratum.is_some()),
+            ("--iterates", self.iterates.is_some()),
+            ("--slope", self.slope.is_some()),
+            ("--reference", self.reference.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--max-gates", self.max_gates.is_some()),
+        ];
+        let given = circuits.into_iter().find(|(_, given)| *given);
+        given.map(|(flag, _)| flag)
+    }
+
     fn part(&self) -> Part {
         self.part.unwrap_or(ORACLE)
     }
@@ -273,13 +290,14 @@ fn stratum_of(args: &ExportArgs, bits: u32) -> Result<Option<Stratum>, Failure> 
                 .to_owned(),
         );
     }
-    let most = most_strata(bits);
-    if strata > most {
+    let mut all = Stratum::halving(strata, bits);
+    let most = all.len() as u64;
+    if u64::from(strata) > most {
         return refuse(format!(
             "--stratum {number}/{strata}: a comparator of {bits} bits has at most {most} strata"
         ));
     }
-    Ok(Stratum::halving(strata, bits).nth(number as usize))
+    Ok(all.nth(number as usize))
 }
 
 /// Fixes the comparator's bits of `oracle` to their values in `stratum`.

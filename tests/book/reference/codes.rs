@@ -2,7 +2,7 @@
 
 use super::markdown::{plain, sentence, wrapped};
 use super::reports;
-use qrt::scene::syntax::codes::{self, Code, TABLE};
+use qrt::syntax::codes::{self, Code, TABLE};
 use std::fmt::Write as _;
 
 /// Groups of codes by their first characters, with titles and descriptions.
@@ -28,7 +28,7 @@ const GROUPS: [(&str, &str, &str); 14] = [
         "Values that are of the right kind, but cannot be meant.",
     ),
     (
-        "QRT030 QRT0310",
+        "QRT030 QRT0310 QRT0311",
         "Geometry",
         "Primitives, after meshes have been placed.",
     ),
@@ -84,10 +84,9 @@ const GROUPS: [(&str, &str, &str); 14] = [
 const HEAD: &str = "\
 # Error codes
 
-Whatever is wrong with a scene is said at once: every fault with its place, a code that stays the
-same from version to version, and what to write instead. This page lists all codes. Each stands
-with what it means, how to mend it, and a report that somebody gets, for a scene or a program among
-qrt's own tests.
+qrt reports all faults of a scene together. A report has the fault's place, its code, which stays
+the same from version to version, and what to write instead. This page lists all codes. Each entry
+has the meaning, the correction, and an example report from qrt's own tests.
 
 Reports about scenes begin with `error[QRT0120]`. Those of the macros come from the Rust compiler,
 with the code at the end of the first line. A code's place on this page has its own address: append

@@ -9,9 +9,9 @@ use std::fmt::Write as _;
 const HEAD: &str = "\
 # Reference of the format
 
-A scene is a YAML file of the blocks below. This page is written from the types that read scenes, as
-is the JSON Schema that `qrt schema` prints; so it says what qrt does. How to author a scene is told
-in [Scenes in YAML](yaml.md), and each error in [Error codes](error-codes.md).
+A scene is a YAML file of the blocks below. This page is generated from the types that read scenes,
+as is the JSON Schema that `qrt schema` prints. [Scenes in YAML](yaml.md) teaches how to write a
+scene, and [Error codes](error-codes.md) explains each error.
 
 - A *block* is a map of keys. A key that is unknown or written twice is an error.
 - A *number* is a YAML number, finite, at most 1e30 in size unless another range stands with it. No

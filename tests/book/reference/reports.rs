@@ -5,9 +5,9 @@ use qrt::core::oracle::{MOST_FACES, NearestOracle, OracleError, Oracles, check_b
 use qrt::lab::mitsuba;
 use qrt::scene::front::{Files, Loaded, meshes, parse, parse_with};
 use qrt::scene::meshes::Meshes;
-use qrt::scene::syntax::{Problem, Report};
 use qrt::scene::valid::{bsdf, validate};
 use qrt::scene::{Bsdf, Jacobian};
+use qrt::syntax::{Problem, Report};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -9,7 +9,7 @@ use crate::pictures::cube::{WALLS, corner};
 use qrt::runtime::render::{Model, RenderOptions, render};
 use qrt::scene::Estimator;
 use qrt::scene::front::parse;
-use qrt::scene::syntax::Report;
+use qrt::syntax::Report;
 use std::fmt::Write as _;
 
 type Point = [f64; 3];
@@ -19,7 +19,7 @@ const ALBEDO: [f64; 3] = [0.25, 0.5, 0.8];
 const DEPTH: i32 = 2;
 
 /// Renders a scene under a model, counted exactly; returns its pixels.
-fn picture(text: &str, model: Model) -> Result<Vec<[f64; 3]>, Report> {
+pub(super) fn picture(text: &str, model: Model) -> Result<Vec<[f64; 3]>, Report> {
     let scene = parse(text, "scene.yaml", &[], "".as_ref())?.valid;
     let options = RenderOptions {
         model: Some(model),
@@ -267,7 +267,7 @@ fn fractions() -> Extreme {
     assert!(last < 1e-5, "{last}");
     Extreme::new(
         "fractions of 4 to 30 bits",
-        "every one works; the error falls down to that of 2^20 comparators",
+        "every number of bits works; the error falls to that of 2^20 thresholds",
         format!(
             "RMSE to real over the mean, by bits: {}",
             measured.join(", ")
@@ -304,7 +304,7 @@ sampling: {{ path_bits: 4, depths: [{{ bits: [4, 4] }}] }}"
     Extreme::new(
         "surfaces that overlap in one plane",
         "the first listed is seen, under every model",
-        "so in all 16 pixels, both ways round".to_owned(),
+        "in all 16 pixels, with the two surfaces listed in either order".to_owned(),
     )
 }
 
@@ -342,7 +342,7 @@ precision: {{ fraction: 24 }}"
     }
     Extreme::new(
         "slivers, and triangles without an area",
-        "a sliver covers its area; without an area it is refused, with its place",
+        "a sliver covers its area; a triangle without an area is refused, with its place",
         format!(
             "relative error of the area by height, {}",
             measured.join(", ")
@@ -391,7 +391,7 @@ sampling: {{ path_bits: 14, depths: [{{ bits: [8, 8] }}, {{ bits: [12, 12] }}], 
     assert!(error < 0.1, "{form_factor}");
     Extreme::new(
         "a lamp 1e-4 of the scene",
-        "it shows as it is, and lights the floor by its form factor (0.0696)",
+        "the lamp shows exactly, and lights the floor by its form factor (0.0696)",
         format!("shown exactly; form factor off by {:.0} %", 100.0 * error),
     )
 }
@@ -410,7 +410,7 @@ geometry: []
     Extreme::new(
         "no primitive at all; a film of 1 x 1",
         "black, without a query",
-        "so under every model".to_owned(),
+        "black under every model".to_owned(),
     )
 }
 

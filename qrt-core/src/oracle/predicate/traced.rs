@@ -1,16 +1,16 @@
 //! The oracle that computes the numbers of a path, each in a register of its format.
 
 use super::Marks;
-use crate::compile::{self, BoolValue, Builder, RealValue, Role};
+use crate::compile::{self, BoolValue, Builder, PixelWord, RealValue, Role, StageName};
 use crate::oracle::paths::{PathFormats, PathNumber, RayNumber as Of};
 use crate::oracle::recording::{PrimaryHit, record};
 use crate::oracle::target::target;
 use crate::oracle::{Channel, Oracle, OracleError, OracleOptions, register_of};
-use crate::tracer::{Arith, Records, Search, Segment, Stage, vector};
 use qrt_circuit::{RegisterId, Type};
 use qrt_scene::Nearest;
 use qrt_scene::sampling::PathPoints;
 use qrt_scene::valid::ValidScene;
+use qrt_tracer::{Arith, Segment, Stage, dot};
 use std::sync::Mutex;
 
 /// The oracle of a path's numbers, and the registers that hold them.
@@ -22,7 +22,8 @@ pub(super) fn traced(
     options: OracleOptions,
 ) -> Result<(Oracle, Vec<RegisterId>), OracleError> {
     let written = scene.scene();
-    let stage = formats.stage(scene, numbers, options.class).relative();
+    let stage = formats.stage(Stage::rgb(scene, options.class), numbers);
+    let stage = stage.relative();
     let points = PathPoints::new(&written.sampling)?;
     let strategy = options.strategy(scene)?;
     let target = target(scene, &stage, &points, strategy, options)?;
@@ -36,14 +37,14 @@ pub(super) fn traced(
     let flag = builder.outside("flag", Type::Bool, Role::Flag, 1);
     let (colours, _) = match written.circuit.nearest {
         Nearest::Running => {
-            let search = Search::new(&stage, 1.0 / (1_u64 << fraction) as f64);
+            let search = stage.search(1.0 / (1_u64 << fraction) as f64);
             record(scene, &mut builder, &stage, &search, PrimaryHit::Traced)?
         }
         Nearest::Paper => record(
             scene,
             &mut builder,
             &stage,
-            &Records::new(&stage, 1.0 / (1_u64 << fraction) as f64),
+            &stage.recorded_search(1.0 / (1_u64 << fraction) as f64),
             PrimaryHit::Traced,
         )?,
     };
@@ -60,11 +61,11 @@ pub(super) fn traced(
             });
         }
     }
-    builder.enter_predicate();
+    builder.enter_stage(StageName::Predicate);
     let reader = Reader {
         formats,
         stage: &stage,
-        face_numbers: (1..=stage.surface_of.len() as u32).collect(),
+        face_numbers: (1..=scene.surface_of_faces().len() as u32).collect(),
         material_numbers: scene
             .surface_of_faces()
             .map(|surface| surface + 1)
@@ -95,6 +96,7 @@ pub(super) fn traced(
         &[id, comparator],
         &Mutex::default(),
     );
+    let parameters = PixelWord::of_program(&parameters, &program);
     let rename = |register: RegisterId| *renamed.get(&register).unwrap_or(&register);
     for channel in &mut channels {
         channel.colour = channel.colour.map_register(rename);
@@ -173,7 +175,7 @@ impl Reader<'_> {
             }
             Of::Distance => number_where(cx, segment.found, segment.distance, shape, format.shift),
             Of::Normal(axis) => {
-                let normal = cx.rows(&self.stage.normals, segment.face)[axis];
+                let normal = cx.rows(self.stage.normals(), segment.face)[axis];
                 number_where(cx, segment.found, normal, shape, format.shift)
             }
         }
@@ -184,8 +186,8 @@ impl Reader<'_> {
         if let Some(front) = segment.front {
             return front;
         }
-        let normal = cx.rows(&self.stage.normals, segment.face);
-        let cos_theta = vector::dot(cx, &segment.direction, &normal);
+        let normal = cx.rows(self.stage.normals(), segment.face);
+        let cos_theta = dot(cx, &segment.direction, &normal);
         let zero = cx.real(0.0);
         cx.less(cos_theta, zero)
     }

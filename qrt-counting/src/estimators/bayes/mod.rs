@@ -10,16 +10,12 @@
 //! * [`PhaseMean`] goes on with the mean-phase circuit, whose phase is the mean itself.
 
 mod adaptive;
-mod choice;
 mod depth;
 mod mean;
 mod phase_mean;
 mod posterior;
 mod random_depth;
 mod run;
-mod strata;
-#[cfg(test)]
-mod strata_tests;
 mod support;
 #[cfg(test)]
 mod tests;
@@ -41,12 +37,13 @@ struct Goal {
     queries: u64,
     error: Option<f64>,
     confidence: f64,
-    strata: Option<u32>,
-    /// True if the run may go on with the mean-phase circuit.
-    mean_phase: bool,
+    /// The ways to count that the run may take.
+    allowed: ways::Allowed,
     noise: Noise,
 }
 
+/// Queries times standard deviation of an amplitude a, over `sqrt(a (1 - a))`; measured.
+const FAR: f64 = 2.2;
 /// The probability of all other S at which one S is known.
 const DOUBT: f64 = 1e-12;
 
@@ -57,8 +54,7 @@ impl Goal {
             queries: settings.queries,
             error: settings.error,
             confidence: settings.confidence,
-            strata: settings.strata,
-            mean_phase: false,
+            allowed: ways::Allowed::from_settings(settings),
             noise: settings.known_noise,
         })
     }

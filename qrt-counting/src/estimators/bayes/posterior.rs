@@ -367,6 +367,20 @@ impl Posterior {
         0.25 * sum(&self.mass, &self.plain, square)
     }
 
+    /// Mean and standard deviation of the fraction of good indices, if each shot counted half: see [`Tempered`].
+    pub(super) fn tempered_amplitude(&self) -> (f64, f64) {
+        let points = || {
+            let masses = self.tempered.mass.iter().enumerate();
+            masses.map(|(index, mass)| (*mass, self.support.amplitude(index, self.total)))
+        };
+        let mean: f64 = points().map(|(mass, amplitude)| mass * amplitude).sum();
+        let square = |(mass, amplitude): (f64, f64)| mass * (amplitude - mean) * (amplitude - mean);
+        (
+            mean.clamp(0.0, 1.0),
+            points().map(square).sum::<f64>().sqrt(),
+        )
+    }
+
     /// The mean fraction of good indices.
     pub(super) fn mean_amplitude(&self) -> f64 {
         let mean: f64 = (self.mass.iter().enumerate())

@@ -25,7 +25,7 @@ pub(super) enum Prior {
 }
 
 /// The power of [`Prior::Ends`]. After Q queries without a good index the posterior mean is about
-/// `2/Q^2` times this power. Measured on pixels with light sampling, four strata have 0.6 of their
+/// `2/Q^2` times this power. Measured on pixels with light sampling, four parts of a comparator have 0.6 of their
 /// error with the even prior (a power of 1), and 0.9 of their error with a power of 0.3.
 const POWER: f64 = 0.1;
 

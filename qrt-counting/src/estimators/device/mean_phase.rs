@@ -19,7 +19,7 @@
 //! The path index is measured, too: a sample of the colours that prefers those far from the reference.
 
 use super::Device;
-use super::strata::Known;
+use super::colours::Known;
 use crate::estimators::{EstimatorError, MAX_ITERATIONS, Noise, id_bits};
 use crate::mean_signal::{MeanSignal, MeanState};
 use crate::random::Stream;
@@ -37,7 +37,7 @@ pub struct MeanPhaseShot {
 
 impl<'a> Device<'a> {
     /// Creates a device that knows the levels of its paths one by one, and therefore runs the
-    /// mean-phase circuit. It also counts strata, as [`Device::of_octaves`].
+    /// mean-phase circuit. It also does what a device of [`Device::of_octaves`] does.
     ///
     /// # Errors
     /// No paths, or noise out of range.

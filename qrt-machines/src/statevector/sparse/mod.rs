@@ -32,7 +32,7 @@ const TOGETHER: usize = 16;
 /// groups. The qubits that are not the same in all states distinguish groups, so that ancillas at
 /// zero cost nothing.
 ///
-/// The machine drops a state when its amplitude is at most [`Sparse::ROUNDING`], which is about
+/// The machine drops a state when its amplitude is at most `1e-16`, which is about
 /// what rounding leaves of amplitudes that cancel. [`Sparse::dropped`] is the sum of the
 /// probabilities of dropped states; nothing is renormalised.
 ///
@@ -74,7 +74,7 @@ impl Sparse {
     /// and were each rounded once leave at most 2^-54, which is dropped. Larger amplitudes, and
     /// those that were rounded many times, can leave more; such a state stays, which costs memory
     /// only.
-    pub const ROUNDING: f64 = 1e-16;
+    pub(crate) const ROUNDING: f64 = 1e-16;
 
     /// Largest number of states. A state takes a bit for each qubit and 16 bytes; while states are
     /// mixed, it takes twice that and some 60 bytes more.
@@ -113,7 +113,7 @@ impl Sparse {
     }
 
     /// Largest number of states that have carried amplitude.
-    pub fn most_states(&self) -> u64 {
+    pub(crate) fn most_states(&self) -> u64 {
         self.peak
     }
 

@@ -34,8 +34,12 @@ const _: () = {
 
     /// The registers of a path of [`Lamp`], which predicates read.
     #[::core::prelude::v1::derive(::core::fmt::Debug)]
+    #[allow(
+        non_camel_case_types,
+        reason = "messages show a name of this case without its module"
+    )]
     #[allow(dead_code, reason = "an author reads some of them only")]
-    pub struct LampPath {
+    pub struct PATH {
         /// The primary ray, and what it meets.
         pub ray0: LampPathRay,
         /// Ray 1, and what it meets.
@@ -47,14 +51,14 @@ const _: () = {
     }
 
     impl ::qrt::core::oracle::paths::PathScene for Lamp {
-        type Path = LampPath;
+        type Path = PATH;
 
         fn scene() -> &'static ::qrt::scene::valid::ValidScene {
             Lamp::scene()
         }
 
-        fn path(inputs: &mut ::qrt::core::oracle::paths::PathInputs<'_>) -> LampPath {
-            LampPath {
+        fn path(inputs: &mut ::qrt::core::oracle::paths::PathInputs<'_>) -> PATH {
+            PATH {
                 ray0: inputs.ray(0),
                 ray1: inputs.ray(1),
                 colour: inputs.colour(),
@@ -65,11 +69,15 @@ const _: () = {
     /// several have one.
     #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
     #[allow(
+        non_camel_case_types,
+        reason = "messages show a name of this case without its module"
+    )]
+    #[allow(
         dead_code,
         non_snake_case,
         reason = "an author's names, of which some are read"
     )]
-    pub struct LampMaterials {
+    pub struct MATERIALS {
         /// `floor`
         pub floor: ::core::primitive::u32,
         /// `lamp`
@@ -79,17 +87,21 @@ const _: () = {
     #[allow(dead_code, reason = "an author asks for some of them only")]
     impl Lamp {
         /// The number that each material with a name has in the registers of a path.
-        pub const MATERIALS: LampMaterials = LampMaterials { floor: 1, lamp: 2 };
+        pub const MATERIALS: MATERIALS = MATERIALS { floor: 1, lamp: 2 };
     }
     /// The number of each face of [`Lamp`] that has a name, by name; all of them where
     /// several have one.
     #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
     #[allow(
+        non_camel_case_types,
+        reason = "messages show a name of this case without its module"
+    )]
+    #[allow(
         dead_code,
         non_snake_case,
         reason = "an author's names, of which some are read"
     )]
-    pub struct LampFaces {
+    pub struct FACES {
         /// `ground`
         pub ground: ::core::primitive::u32,
         /// `sky`
@@ -99,31 +111,35 @@ const _: () = {
     #[allow(dead_code, reason = "an author asks for some of them only")]
     impl Lamp {
         /// The number that each face with a name has in the registers of a path.
-        pub const FACES: LampFaces = LampFaces { ground: 1, sky: 2 };
+        pub const FACES: FACES = FACES { ground: 1, sky: 2 };
     }
     /// Numbers of the primary ray of [`Lamp`] that are in registers.
     #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
     #[allow(dead_code, reason = "an author reads some of them only")]
-    pub struct LampRay0 {
+    pub struct Ray0 {
         /// Cell of the unit square that samples the direction.
         pub sample_u: ::qrt::core::oracle::compiled::Field<Lamp, ::qrt::circuit::format::UInt<1>>,
     }
     /// Numbers of ray 1 of [`Lamp`] that are in registers.
     #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
     #[allow(dead_code, reason = "an author reads some of them only")]
-    pub struct LampRay1 {
+    pub struct Ray1 {
         /// Start of the ray, in the scene's frame as the circuit scales it.
         pub origin_x:
             ::qrt::core::oracle::compiled::Field<Lamp, ::qrt::circuit::format::UFixed<-4, 6>>,
     }
     /// Registers of the numbers of a path of [`Lamp`].
     #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+    #[allow(
+        non_camel_case_types,
+        reason = "messages show the name that an author writes"
+    )]
     #[allow(dead_code, reason = "an author reads some of them only")]
-    pub struct LampLayout {
+    pub struct LAYOUT {
         /// Of the primary ray.
-        pub ray0: LampRay0,
+        pub ray0: Ray0,
         /// Of ray 1.
-        pub ray1: LampRay1,
+        pub ray1: Ray1,
     }
 
     #[allow(warnings, clippy::all, clippy::pedantic, reason = "written by `qrt!`")]
@@ -145,29 +161,29 @@ const _: () = {
             use ::core::result::Result::{self, Err, Ok};
             use ::qrt::circuit::{
                 Bit, BlockId, Declaration, Machine, Multiples, Operand, RegisterId, Style, Tag,
-                Type, Word,
+                Type, When, Word,
             };
             use ::qrt::core::compile::{NamedPlace, PixelWord, ValuePlace};
             use ::qrt::core::oracle::Channel;
             use ::qrt::core::oracle::compiled::{
                 BlockDeclaration, CompiledOracle, Computed, Field, Outline, Vector,
             };
-            use ::qrt::core::tracer::{Named, Quantity};
             use ::qrt::scene::sampling::{
                 Axis::{U, V},
                 Coordinate,
                 Square::{Light, Ray},
             };
+            use ::qrt::tracer::{Named, Quantity};
             impl __Scene {
                 /// Registers of the numbers of a path, ray by ray.
-                pub const LAYOUT: LampLayout = LampLayout {
-                    ray0: LampRay0 {
+                pub const LAYOUT: LAYOUT = LAYOUT {
+                    ray0: Ray0 {
                         sample_u: Field::<__Scene, ::qrt::circuit::format::UInt<1>>::new(
                             0,
                             Word::unsigned(RegisterId(3), 0, 1),
                         ),
                     },
-                    ray1: LampRay1 {
+                    ray1: Ray1 {
                         origin_x: Field::<__Scene, ::qrt::circuit::format::UFixed<-4, 6>>::new(
                             1,
                             Word {

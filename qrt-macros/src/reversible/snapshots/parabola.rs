@@ -7,10 +7,11 @@ fn parabola<const F: ::core::primitive::u32, M: ::qrt::circuit::Host>(
     y: &mut ::qrt::circuit::format::Reg<M::Register, Fixed<4, F>>,
 ) {
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(F <= 61, "QRT0829: a number of more than 63 bits") };
+    const { ::qrt::circuit::demand(F <= 61, "QRT0829: a number of more than 63 bits") };
     const {
-        ::core::assert!(
-            2 <= F, "QRT0808: a constant has more fraction bits than its target"
+        ::qrt::circuit::demand(
+            2 <= F,
+            "QRT0808: a constant has more fraction bits than its target",
         )
     };
     let __machine = ::qrt::circuit::Host::machine(__host);
@@ -92,16 +93,17 @@ fn parabola_inverse<const F: ::core::primitive::u32, M: ::qrt::circuit::Host>(
     y: &mut ::qrt::circuit::format::Reg<M::Register, Fixed<4, F>>,
 ) {
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(F <= 61, "QRT0829: a number of more than 63 bits") };
+    const { ::qrt::circuit::demand(F <= 61, "QRT0829: a number of more than 63 bits") };
     const {
-        ::core::assert!(
-            2 <= F, "QRT0808: a constant has more fraction bits than its target"
+        ::qrt::circuit::demand(
+            2 <= F,
+            "QRT0808: a constant has more fraction bits than its target",
         )
     };
     const {
-        ::core::assert!(
-            ! M::UNDONE,
-            "QRT0812: `parabola_inverse` has another name here, by which it cannot be undone"
+        ::qrt::circuit::demand(
+            !M::UNDONE,
+            "QRT0812: `parabola_inverse` has another name here, by which it cannot be undone",
         )
     };
     let __machine = ::qrt::circuit::Host::machine(__host);
@@ -156,10 +158,11 @@ fn parabola_program<const F: ::core::primitive::u32>(
     );
     let __host = &mut __recorder;
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(F <= 61, "QRT0829: a number of more than 63 bits") };
+    const { ::qrt::circuit::demand(F <= 61, "QRT0829: a number of more than 63 bits") };
     const {
-        ::core::assert!(
-            2 <= F, "QRT0808: a constant has more fraction bits than its target"
+        ::qrt::circuit::demand(
+            2 <= F,
+            "QRT0808: a constant has more fraction bits than its target",
         )
     };
     let __machine = __host;

@@ -153,9 +153,9 @@ pub fn polynomial_inverse<M: ::qrt::circuit::Host>(
 ) {
     use ::qrt::circuit as __qrt;
     const {
-        ::core::assert!(
-            ! M::UNDONE,
-            "QRT0812: `polynomial_inverse` has another name here, by which it cannot be undone"
+        ::qrt::circuit::demand(
+            !M::UNDONE,
+            "QRT0812: `polynomial_inverse` has another name here, by which it cannot be undone",
         )
     };
     let __machine = ::qrt::circuit::Host::machine(__host);

@@ -9,12 +9,17 @@ fn rotate_where<const W: ::core::primitive::u32, M: ::qrt::circuit::Host>(
     b: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
 ) {
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
+    const { ::qrt::circuit::demand(1 <= W, "QRT0819: bits beyond the last of `b`") };
     const {
-        ::core::assert!(W <= 1000001, "QRT0811: a loop of more than 1,000,000 passes")
+        ::qrt::circuit::demand(
+            W <= 1000001,
+            "QRT0811: a loop of more than 1,000,000 passes",
+        )
     };
-    const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
-    const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
+    const { ::qrt::circuit::demand(W <= 62, "QRT0829: a number of more than 63 bits") };
+    const {
+        ::qrt::circuit::demand(3 <= W, "QRT0806: `5` has more bits than its target")
+    };
     #[allow(dead_code, reason = "it is a type, and never a value")]
     struct __Frame<H>(::core::marker::PhantomData<H>);
     impl<H: __qrt::Host> __qrt::CallFrame for __Frame<H> {
@@ -27,9 +32,9 @@ fn rotate_where<const W: ::core::primitive::u32, M: ::qrt::circuit::Host>(
     }
     const {
         let __running = <__Frame<M> as __qrt::CallFrame>::RUNNING;
-        ::core::assert!(
-            ! __running.repeats(),
-            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants"
+        __qrt::demand(
+            !__running.repeats(),
+            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants",
         );
     }
     let __machine = ::qrt::circuit::Host::machine(__host);
@@ -60,8 +65,34 @@ fn rotate_where<const W: ::core::primitive::u32, M: ::qrt::circuit::Host>(
                     __machine,
                     __qrt::Bit::at(&__t1, 0),
                     |__machine| {
-                        __qrt::Caller::<_, __Frame<M>, false>::new(__machine)
-                            .call(helpers::add::<W, _>, (&*flag, &mut *a));
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Reversible<
+                            _,
+                            _,
+                            _,
+                        >>::run(
+                            helpers::add::<W, _>,
+                            <__qrt::Itself<
+                                __qrt::Recorder,
+                            > as __qrt::Is<
+                                _,
+                                _,
+                            >>::is(
+                                &mut __qrt::Caller::<_, __Frame<M>, false>::new(__machine),
+                            ),
+                            <__qrt::Itself<
+                                __qrt::Recorder,
+                            > as __qrt::Handed<
+                                _,
+                                _,
+                                _,
+                            >>::handed::<
+                                <M as __qrt::Host>::Register,
+                                _,
+                                _,
+                            >((&*flag, &mut *a)),
+                        );
                     },
                 );
                 __qrt::controlled(
@@ -134,8 +165,34 @@ fn rotate_where<const W: ::core::primitive::u32, M: ::qrt::circuit::Host>(
                     __machine,
                     __qrt::Bit::at(&__t2, 0),
                     |__machine| {
-                        __qrt::Caller::<_, __Frame<M>, false>::new(__machine)
-                            .call(helpers::add::<W, _>, (&*flag, &mut *a));
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Reversible<
+                            _,
+                            _,
+                            _,
+                        >>::run(
+                            helpers::add::<W, _>,
+                            <__qrt::Itself<
+                                __qrt::Recorder,
+                            > as __qrt::Is<
+                                _,
+                                _,
+                            >>::is(
+                                &mut __qrt::Caller::<_, __Frame<M>, false>::new(__machine),
+                            ),
+                            <__qrt::Itself<
+                                __qrt::Recorder,
+                            > as __qrt::Handed<
+                                _,
+                                _,
+                                _,
+                            >>::handed::<
+                                <M as __qrt::Host>::Register,
+                                _,
+                                _,
+                            >((&*flag, &mut *a)),
+                        );
                     },
                 );
                 __qrt::controlled(
@@ -173,12 +230,17 @@ fn rotate_where_inverse<const W: ::core::primitive::u32, M: ::qrt::circuit::Host
     b: &mut ::qrt::circuit::format::Reg<M::Register, UInt<W>>,
 ) {
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
+    const { ::qrt::circuit::demand(1 <= W, "QRT0819: bits beyond the last of `b`") };
     const {
-        ::core::assert!(W <= 1000001, "QRT0811: a loop of more than 1,000,000 passes")
+        ::qrt::circuit::demand(
+            W <= 1000001,
+            "QRT0811: a loop of more than 1,000,000 passes",
+        )
     };
-    const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
-    const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
+    const { ::qrt::circuit::demand(W <= 62, "QRT0829: a number of more than 63 bits") };
+    const {
+        ::qrt::circuit::demand(3 <= W, "QRT0806: `5` has more bits than its target")
+    };
     #[allow(dead_code, reason = "it is a type, and never a value")]
     struct __Frame<H>(::core::marker::PhantomData<H>);
     impl<H: __qrt::Host> __qrt::CallFrame for __Frame<H> {
@@ -191,15 +253,15 @@ fn rotate_where_inverse<const W: ::core::primitive::u32, M: ::qrt::circuit::Host
     }
     const {
         let __running = <__Frame<M> as __qrt::CallFrame>::RUNNING;
-        ::core::assert!(
-            ! __running.repeats(),
-            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants"
+        __qrt::demand(
+            !__running.repeats(),
+            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants",
         );
     }
     const {
-        ::core::assert!(
-            ! M::UNDONE,
-            "QRT0812: `rotate_where_inverse` has another name here, by which it cannot be undone"
+        ::qrt::circuit::demand(
+            !M::UNDONE,
+            "QRT0812: `rotate_where_inverse` has another name here, by which it cannot be undone",
         )
     };
     let __machine = ::qrt::circuit::Host::machine(__host);
@@ -229,8 +291,34 @@ fn rotate_where_inverse<const W: ::core::primitive::u32, M: ::qrt::circuit::Host
                 __machine,
                 __qrt::Bit::at(&__t1, 0),
                 |__machine| {
-                    __qrt::Caller::<_, __Frame<M>, true>::new(__machine)
-                        .call(helpers::add::<W, _>, (&*flag, &mut *a));
+                    <__qrt::Itself<
+                        __qrt::Recorder,
+                    > as __qrt::Reversible<
+                        _,
+                        _,
+                        _,
+                    >>::run(
+                        helpers::add::<W, _>,
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Is<
+                            _,
+                            _,
+                        >>::is(
+                            &mut __qrt::Caller::<_, __Frame<M>, true>::new(__machine),
+                        ),
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Handed<
+                            _,
+                            _,
+                            _,
+                        >>::handed::<
+                            <M as __qrt::Host>::Register,
+                            _,
+                            _,
+                        >((&*flag, &mut *a)),
+                    );
                 },
             );
             __qrt::controlled(
@@ -287,12 +375,17 @@ fn rotate_where_program<const W: ::core::primitive::u32>(
     );
     let __host = &mut __recorder;
     use ::qrt::circuit as __qrt;
-    const { ::core::assert!(1 <= W, "QRT0819: bits beyond the last of `b`") };
+    const { ::qrt::circuit::demand(1 <= W, "QRT0819: bits beyond the last of `b`") };
     const {
-        ::core::assert!(W <= 1000001, "QRT0811: a loop of more than 1,000,000 passes")
+        ::qrt::circuit::demand(
+            W <= 1000001,
+            "QRT0811: a loop of more than 1,000,000 passes",
+        )
     };
-    const { ::core::assert!(W <= 62, "QRT0829: a number of more than 63 bits") };
-    const { ::core::assert!(3 <= W, "QRT0806: `5` has more bits than its target") };
+    const { ::qrt::circuit::demand(W <= 62, "QRT0829: a number of more than 63 bits") };
+    const {
+        ::qrt::circuit::demand(3 <= W, "QRT0806: `5` has more bits than its target")
+    };
     #[allow(dead_code, reason = "it is a type, and never a value")]
     struct __Frame<H>(::core::marker::PhantomData<H>);
     impl<H: __qrt::Host> __qrt::CallFrame for __Frame<H> {
@@ -305,9 +398,9 @@ fn rotate_where_program<const W: ::core::primitive::u32>(
     }
     const {
         let __running = <__Frame<::qrt::circuit::Recorder> as __qrt::CallFrame>::RUNNING;
-        ::core::assert!(
-            ! __running.repeats(),
-            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants"
+        __qrt::demand(
+            !__running.repeats(),
+            "QRT0812: `rotate_where` calls itself, by way of what it calls, and would never end: write `for` over constants",
         );
     }
     let __machine = __host;
@@ -345,12 +438,38 @@ fn rotate_where_program<const W: ::core::primitive::u32>(
                 __machine,
                 __qrt::Bit::at(&__t2, 0),
                 |__machine| {
-                    __qrt::Caller::<
+                    <__qrt::Itself<
+                        __qrt::Recorder,
+                    > as __qrt::Reversible<
                         _,
-                        __Frame<::qrt::circuit::Recorder>,
-                        false,
-                    >::new(__machine)
-                        .call(helpers::add::<W, _>, (&*flag, &mut *a));
+                        _,
+                        _,
+                    >>::run(
+                        helpers::add::<W, _>,
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Is<
+                            _,
+                            _,
+                        >>::is(
+                            &mut __qrt::Caller::<
+                                _,
+                                __Frame<::qrt::circuit::Recorder>,
+                                false,
+                            >::new(__machine),
+                        ),
+                        <__qrt::Itself<
+                            __qrt::Recorder,
+                        > as __qrt::Handed<
+                            _,
+                            _,
+                            _,
+                        >>::handed::<
+                            <::qrt::circuit::Recorder as __qrt::Host>::Register,
+                            _,
+                            _,
+                        >((&*flag, &mut *a)),
+                    );
                 },
             );
             __qrt::controlled(

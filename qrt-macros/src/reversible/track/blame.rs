@@ -3,7 +3,7 @@
 use crate::reversible::problem::Problems;
 use crate::reversible::source::{begin, text};
 use proc_macro2::TokenStream;
-use qrt_scene::syntax::codes;
+use qrt_syntax::codes;
 use quote::ToTokens;
 use std::collections::BTreeSet;
 use std::rc::Rc;

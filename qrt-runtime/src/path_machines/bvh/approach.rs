@@ -2,7 +2,7 @@
 //! distances at which they enter it.
 
 use crate::path_machines::lanes::{Lanes, lanes};
-use qrt_core::tracer::{Arith, Ray};
+use qrt_tracer::{Arith, Ray};
 
 /// Largest number of lanes of a value.
 pub(super) const MOST_RAYS: usize = 16;

@@ -6,7 +6,7 @@ use super::packet::{indices, reals};
 use super::walk::Search;
 use crate::path_machines::lanes::{Lanes, lanes};
 use crate::path_machines::masks::bits;
-use qrt_core::tracer::{Arith, BallRay, NO_PLANE, Ray, StageGeometry, Start};
+use qrt_tracer::{Arith, BallRay, NO_PLANE, Ray, StageGeometry, Start};
 
 /// Spheres: constants side by side. An absent sphere has a centre that makes every comparison false.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@
 
 use super::{Child, FACES, Node, WIDE};
 use glam::DVec3;
-use qrt_core::tracer::{StageBall, StageGeometry};
+use qrt_tracer::{StageBall, StageGeometry};
 
 /// Number of levels of the binary tree that follow the heuristic; deeper parts are halved.
 const FREE_DEPTH: usize = 32;

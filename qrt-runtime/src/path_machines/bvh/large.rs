@@ -2,7 +2,7 @@
 
 use super::build::{self, Bounds};
 use crate::path_machines::lanes::Lanes;
-use qrt_core::tracer::{
+use qrt_tracer::{
     Arith, AxisPermuted, Crossing, DiscTest, EdgeTest, Ray, StageGeometry, between, cross, weighted,
 };
 

@@ -5,7 +5,7 @@ use super::approach::{Lines, MOST_RAYS};
 use super::walk::Search;
 use crate::path_machines::lanes::{Lanes, lanes};
 use crate::path_machines::masks::bits;
-use qrt_core::tracer::{Arith, AxisPermuted, DiscNumbers, StageGeometry, cross, weighted};
+use qrt_tracer::{Arith, AxisPermuted, DiscNumbers, StageGeometry, cross, weighted};
 
 /// Largest number of edges of a face.
 const EDGES: usize = 4;
@@ -29,7 +29,7 @@ pub(super) struct Packet {
     discs: Option<Box<DiscColumns>>,
 }
 
-/// The tests of discs, by face: see [`DiscTest`](qrt_core::tracer::DiscTest). Numbers of another face make its
+/// The tests of discs, by face: see [`DiscTest`](qrt_tracer::DiscTest). Numbers of another face make its
 /// test true for every point.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]

@@ -10,7 +10,7 @@ use crate::path_machines::lanes::{Inputs, Lanes, lanes, slots};
 use crate::path_machines::masks;
 use crate::path_machines::masks::at_256_bits;
 use pulp::WithSimd;
-use qrt_core::tracer::{Arith, Ray, Start, Work};
+use qrt_tracer::{Arith, Ray, Start, Work};
 
 /// Memory that successive walks reuse.
 #[derive(Debug)]

@@ -53,7 +53,7 @@ pub enum Defect {
         /// The number of thresholds up to the bound: `2^c`.
         most: i64,
     },
-    /// The caller cancelled the run: see [`super::OracleMachine::trace_until`].
+    /// The caller cancelled the run.
     #[error("the run was cancelled")]
     Cancelled,
     /// The oracle has primary hits as inputs, and the machine has no search for them.

@@ -2,10 +2,17 @@
 
 use super::*;
 use crate::plan::ErrorParts;
+use crate::render::{Searched, Visibility};
 use crate::search::Guess;
 use proptest::prelude::*;
 use qrt_core::oracle::CallCost;
 use qrt_scene::{Accuracy, Sequence};
+use qrt_tracer::{ByClass, PixelClass};
+
+fn scales(bounds: Vec<(PixelClass, [f64; 3])>) -> Scales {
+    let outlines = Some(vec![vec![[1.0, 2.0], [3.0, -0.0]], vec![]]);
+    Scales(ByClass::of_parts(outlines, bounds).unwrap())
+}
 
 /// Returns properties in which every field has a value of its own.
 fn full() -> Properties {
@@ -19,17 +26,19 @@ fn full() -> Properties {
             depolarising: 0.125,
             readout: 0.25,
         },
-        visibility: Visibility::Grover {
-            failure: 1e-3,
-            guess: Guess::Random,
+        primary_hits: PrimaryHitsFound {
+            method: Visibility::Grover {
+                failure: 1e-3,
+                guess: Guess::Random,
+            },
+            searched: Some(Searched {
+                faces: 5,
+                states: 8,
+                failure: 1e-3,
+                qubits: 300,
+                toffoli: 7_000,
+            }),
         },
-        searched: Some(Searched {
-            faces: 5,
-            states: 8,
-            failure: 1e-3,
-            qubits: 300,
-            toffoli: 7_000,
-        }),
         plan: Some(PlanFigures {
             accuracy: Accuracy {
                 error: 0.01,
@@ -61,17 +70,10 @@ fn full() -> Properties {
                 toffoli: 69_124,
             }),
         }),
-        outlines: Some(vec![vec![[1.0, 2.0], [3.0, -0.0]], vec![]]),
-        bounds: vec![
-            Bound {
-                class: PixelClass::MayMeetLamp,
-                bound: [17.0, 12.0, f64::MIN_POSITIVE],
-            },
-            Bound {
-                class: PixelClass::MeetsNoLamp,
-                bound: [1.0; 3],
-            },
-        ],
+        scales: scales(vec![
+            (PixelClass::MayMeetLamp, [17.0, 12.0, f64::MIN_POSITIVE]),
+            (PixelClass::MeetsNoLamp, [1.0; 3]),
+        ]),
         ids: u64::MAX,
         paths: 1 << 40,
         resumed_paths: 7,
@@ -113,18 +115,17 @@ fn an_unknown_estimator_is_refused() {
 
 #[test]
 fn a_length_beyond_the_end_is_refused() {
-    let empty = Properties {
-        bounds: vec![],
-        ..full()
-    };
     let one = Properties {
-        bounds: full().bounds.split_off(1),
+        scales: scales(vec![(
+            PixelClass::MayMeetLamp,
+            [17.0, 12.0, f64::MIN_POSITIVE],
+        )]),
         ..full()
     };
-    let (without, with) = (empty.encode(), one.encode());
-    let place = (0..with.len()).find(|&place| without[place] != with[place]);
+    let (one, with) = (one.encode(), full().encode());
+    let place = (0..one.len()).find(|&place| one[place] != with[place]);
     let place = place.unwrap();
-    assert_eq!([without[place], with[place]], [0, 1]);
+    assert_eq!([one[place], with[place]], [1, 2]);
     // A bound has 25 bytes: these are terabytes of them.
     let length = [0xff, 0xff, 0xff, 0xff, 0xff, 0x0f];
     let bytes = [&with[..place], &length, &with[place + 1..]].concat();

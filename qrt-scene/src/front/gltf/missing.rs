@@ -2,7 +2,7 @@
 
 use crate::front::meshes::{Faces, Library};
 use crate::scene::meshes::{FileError, FileMesh, FilePlace, Wanted};
-use crate::syntax::MeshFile;
+use qrt_syntax::MeshFile;
 use std::path::Path;
 
 /// Refuses the file at `path`.

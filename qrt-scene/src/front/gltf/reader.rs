@@ -3,15 +3,16 @@
 mod container;
 mod material;
 
-use crate::front::meshes::{Collector, Faces, Library, Normals};
+use crate::Rgb;
+use crate::front::meshes::{Collector, Corners, Faces, Library, Normals, colour};
 use crate::scene::meshes::{FileError, FileMaterial, FileMesh, FilePlace, Wanted};
-use crate::syntax::MeshFile;
 use ::gltf::accessor::{DataType, Dimensions};
 use ::gltf::buffer::Source;
 use ::gltf::mesh::Mode;
 use ::gltf::scene::Transform;
 use ::gltf::{Accessor, Document, Mesh, Node, Primitive, Semantic};
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
+use qrt_syntax::MeshFile;
 use std::collections::{HashMap, HashSet};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -43,12 +44,9 @@ pub(in crate::front) fn parse(
         parts: Vec::new(),
         placed: 0,
         triangles: 0,
-        coloured: HashSet::new(),
-        first_coloured: None,
         notes: Vec::new(),
     };
     reader.read(&document)?;
-    reader.note_colours();
     let Reader {
         collector,
         parts,
@@ -78,12 +76,6 @@ fn part_name((mesh, primitive): Part) -> String {
     format!("meshes[{mesh}].primitives[{primitive}]")
 }
 
-/// Returns the name of a mesh, or its place in the file if it has none.
-fn mesh_name(mesh: &Mesh<'_>) -> String {
-    let name = mesh.name().filter(|name| !name.is_empty());
-    name.map_or_else(|| format!("meshes[{}]", mesh.index()), str::to_owned)
-}
-
 struct Reader<'a> {
     path: &'a Path,
     wanted: Wanted,
@@ -105,10 +97,6 @@ struct Reader<'a> {
     /// Number of primitives that were placed, with triangles or without.
     placed: usize,
     triangles: usize,
-    /// Indices of the meshes whose vertices have colours.
-    coloured: HashSet<usize>,
-    /// The name of the first of them, and its primitive.
-    first_coloured: Option<(String, Part)>,
     notes: Vec<FileError>,
 }
 
@@ -122,14 +110,6 @@ impl<'a> Reader<'a> {
         if self.notes.iter().all(|note| *note.what != what) {
             let note = self.error(what, part());
             self.notes.push(note);
-        }
-    }
-
-    /// Adds a note about the colours of vertices: one, since a file may have very many meshes.
-    fn note_colours(&mut self) {
-        if let Some((mesh, part)) = self.first_coloured.take() {
-            let others = self.coloured.len() - 1;
-            self.note(MeshFile::GltfColours { mesh, others }, || part_name(part));
         }
     }
 
@@ -248,12 +228,8 @@ impl<'a> Reader<'a> {
         if triangles == 0 {
             return Ok(());
         }
+        let colours = self.colours(primitive, part)?;
         let material = if self.wanted.materials {
-            if primitive.get(&Semantic::Colors(0)).is_some() {
-                self.coloured.insert(mesh.index());
-                self.first_coloured
-                    .get_or_insert_with(|| (mesh_name(mesh), part));
-            }
             Some(self.material(primitive, part)?)
         } else {
             None
@@ -275,14 +251,20 @@ impl<'a> Reader<'a> {
             }
             let mut face = [DVec3::ZERO; 3];
             let mut of_corners = [DVec3::ZERO; 3];
+            let mut of_vertices = Vec::new();
             for ((vertex, normal), corner) in face.iter_mut().zip(&mut of_corners).zip(corners) {
                 let index = indices.as_ref().map_or(corner, |data| data.index(corner));
-                let found = vertices.point(index);
-                let count = vertices.count;
-                let found = found.ok_or_else(|| {
+                let beyond = |count: usize| {
                     let index = index as u32;
                     self.error(MeshFile::PlyIndex { index, count }, part_name(part))
-                })?;
+                };
+                let found = vertices.point(index);
+                let found = found.ok_or_else(|| beyond(vertices.count))?;
+                if let Some(colours) = &colours {
+                    let found = colours.colour(index).ok_or_else(|| beyond(colours.count))?;
+                    let found = colour(found).map_err(|what| self.error(what, part_name(part)));
+                    of_vertices.push(found?);
+                }
                 *vertex = transform.transform_point3(found);
                 if let Some(given) = normals.as_ref().and_then(|normals| normals.point(index)) {
                     let turned = turn * given;
@@ -302,10 +284,46 @@ impl<'a> Reader<'a> {
                 None => Normals::Flat,
                 Some(_) => Normals::OfCorners(&of_corners),
             };
-            let added = self.collector.add(&face, of_corners, material, origin);
+            let face = Corners {
+                places: &face,
+                normals: of_corners,
+                colours: &of_vertices,
+            };
+            let added = self.collector.add(face, material, origin);
             added.map_err(|what| self.error(what, part_name(part)))?;
         }
         Ok(())
+    }
+
+    /// Returns the colours of a primitive's vertices; `None` if they are not wanted, with a note if there
+    /// are any.
+    fn colours(
+        &mut self,
+        primitive: &Primitive<'_>,
+        part: Part,
+    ) -> Result<Option<Data<'a>>, FileError> {
+        let colours = primitive.get(&Semantic::Colors(0));
+        if !self.wanted.colours {
+            if colours.is_some() {
+                self.note(MeshFile::ColoursUnused, || part_name(part));
+            }
+            return Ok(None);
+        }
+        let fail = |what| FileError::new(what, self.path, FilePlace::Part(part_name(part)));
+        let colours = colours.ok_or_else(|| fail(MeshFile::GltfNoColours))?;
+        let is_colour = match (colours.data_type(), colours.dimensions()) {
+            (DataType::F32, Dimensions::Vec3 | Dimensions::Vec4) => true,
+            (DataType::U8 | DataType::U16, Dimensions::Vec3 | Dimensions::Vec4) => {
+                colours.normalized()
+            }
+            _ => false,
+        };
+        if !is_colour {
+            return Err(fail(MeshFile::GltfType {
+                attribute: "COLOR_0",
+            }));
+        }
+        self.data(&colours, part).map(Some)
     }
 
     /// Returns the index of a primitive's material in `materials`.
@@ -468,16 +486,31 @@ impl Data<'_> {
         Some(point.as_dvec3())
     }
 
+    /// Returns colour number `number`, of floats or normalized whole numbers; `None` if there is none.
+    fn colour(&self, number: usize) -> Option<Rgb> {
+        let white = match self.numbers {
+            DataType::U8 => 255.0,
+            DataType::U16 => 65535.0,
+            _ => return self.point(number).map(|colour| colour.to_array()),
+        };
+        let bytes = self.element(number)?;
+        let channels = [0, 1, 2].map(|channel| {
+            let size = self.numbers.size();
+            let bytes = bytes.get(channel * size..).unwrap_or_default();
+            self.whole(bytes) as f64 / white
+        });
+        Some(channels)
+    }
+
     /// Returns index number `number`, which is less than `count`.
     fn index(&self, number: usize) -> usize {
-        let length = match self.numbers {
-            DataType::U8 => 1,
-            DataType::U16 => 2,
-            _ => 4,
-        };
-        let bytes = self.element(number).unwrap_or_default().iter();
-        let bytes = bytes.take(length).rev();
-        bytes.fold(0, |index, byte| index << 8 | usize::from(*byte))
+        self.whole(self.element(number).unwrap_or_default())
+    }
+
+    /// The little-endian whole number at the start of `bytes`.
+    fn whole(&self, bytes: &[u8]) -> usize {
+        let bytes = bytes.iter().take(self.numbers.size()).rev();
+        bytes.fold(0, |whole, byte| whole << 8 | usize::from(*byte))
     }
 }
 

@@ -4,9 +4,9 @@ use super::*;
 use crate::front::meshes::Faces;
 use crate::scene::meshes::{FileError, FileMesh, Wanted};
 use crate::scene::{Dielectric, Emitter, Ggx, Lambertian, Material, Mirror};
-use crate::syntax::MeshFile;
 use glam::DVec3;
 use proptest::prelude::*;
+use qrt_syntax::MeshFile;
 use std::path::Path;
 
 /// A tetrahedron: 4 points, then the indices of 4 triangles as bytes.
@@ -77,6 +77,7 @@ fn read_with(bytes: &[u8], wants_materials: bool) -> Result<FileMesh, FileError>
         Wanted {
             materials: wants_materials,
             normals: true,
+            colours: false,
         },
         Faces::default(),
         &mut library,
@@ -90,7 +91,7 @@ fn read_at_most(most: usize, json: &str) -> Result<FileMesh, FileError> {
     parse(
         path,
         json.as_bytes(),
-        Wanted::ALL,
+        Wanted::USUAL,
         Faces::new(most),
         &mut library,
     )
@@ -459,48 +460,144 @@ fn a_binary_file_ends_where_its_header_says() {
     assert!(error.to_string().contains("end early"), "{error}");
 }
 
+/// The tetrahedron with an attribute `COLOR_0` of the accessor that `accessor` gives without its view, after the
+/// bytes of the tetrahedron.
+fn coloured(accessor: &str, colours: &[u8], wanted: bool) -> Result<FileMesh, FileError> {
+    let mut bytes = binary();
+    bytes.extend(colours);
+    let text = json(&[
+        (r#""POSITION": 0 "#, r#""POSITION": 0, "COLOR_0": 2 "#),
+        (
+            r#""type": "SCALAR" }"#,
+            &format!(r#""type": "SCALAR" }}, {{ "bufferView": 2, {accessor} }}"#),
+        ),
+        (
+            r#""byteOffset": 48, "byteLength": 12 }"#,
+            &format!(
+                r#""byteOffset": 48, "byteLength": 12 }},
+                {{ "buffer": 0, "byteOffset": 60, "byteLength": {} }}"#,
+                colours.len()
+            ),
+        ),
+        (
+            r#""byteLength": 60 }"#,
+            &format!(r#""byteLength": {} }}"#, bytes.len()),
+        ),
+        (FILE, ""),
+    ]);
+    let mut library = |path: &Path| unreachable!("{}", path.display());
+    parse(
+        Path::new("dir/m.glb"),
+        &glb(&text, &bytes),
+        Wanted {
+            colours: wanted,
+            ..Wanted::default()
+        },
+        Faces::default(),
+        &mut library,
+    )
+}
+
+/// Four colours, by channel in 255ths.
+const COLOURS: [[u8; 3]; 4] = [[255, 0, 51], [0, 102, 153], [204, 255, 0], [51, 51, 255]];
+
 #[test]
-fn colours_of_vertices_are_named_once() {
-    let coloured = r#""attributes": { "POSITION": 0, "COLOR_0": 0 }"#;
-    let plain = r#""attributes": { "POSITION": 0 }"#;
-    let primitive = format!(r#"{{ {coloured}, "indices": 1, "material": 0 }}"#);
-    let meshes = format!(
-        r#""meshes": [
-            {{ "name": "fox", "primitives": [{primitive}, {primitive}] }},
-            {{ "primitives": [{primitive}] }}, {{ "primitives": [{primitive}] }},
-        "#
+fn colours_of_vertices_are_read_in_every_type() {
+    let floats = |alpha: Option<f32>| -> Vec<u8> {
+        let colour = |c: &[u8; 3]| c.map(|c| f32::from(c) / 255.0).into_iter().chain(alpha);
+        let numbers = COLOURS.iter().flat_map(|c| colour(c).collect::<Vec<_>>());
+        numbers.flat_map(f32::to_le_bytes).collect()
+    };
+    // Rows are aligned to four bytes.
+    let bytes: Vec<u8> = COLOURS.iter().flat_map(|&[r, g, b]| [r, g, b, 7]).collect();
+    let shorts = |c: &[u8; 3]| c.map(|c| u16::from(c) * 257);
+    let shorts = COLOURS.iter().flat_map(|c| [&shorts(c)[..], &[9]].concat());
+    let shorts: Vec<u8> = shorts.flat_map(u16::to_le_bytes).collect();
+    let whole = |kind: u32| {
+        format!(r#""componentType": {kind}, "normalized": true, "count": 4, "type": "VEC4""#)
+    };
+    let [three, four] = ["VEC3", "VEC4"]
+        .map(|kind| format!(r#""componentType": 5126, "count": 4, "type": "{kind}""#));
+    // The faces are 0 2 1, 0 1 3, 1 2 3 and 0 3 2.
+    let corners = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let expected = corners.map(|face| face.map(|c| COLOURS[c].map(|c| f64::from(c) / 255.0)));
+    for (accessor, data) in [
+        (&three, floats(None)),
+        (&four, floats(Some(0.5))),
+        (&whole(5121), bytes),
+        (&whole(5123), shorts),
+    ] {
+        let found = coloured(accessor, &data, true).unwrap().colours;
+        let pairs = found.as_flattened().iter().zip(expected.as_flattened());
+        for (found, expected) in pairs {
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-7, "{accessor}: {found}");
+            }
+        }
+        assert_eq!(found.len(), 4);
+    }
+}
+
+#[test]
+fn colours_that_are_none_are_refused_at_their_primitive() {
+    let data = [0; 64];
+    for (accessor, code) in [
+        (
+            r#""componentType": 5121, "count": 4, "type": "VEC4""#,
+            "QRT0351",
+        ),
+        (
+            r#""componentType": 5126, "count": 4, "type": "VEC2""#,
+            "QRT0351",
+        ),
+        (
+            r#""componentType": 5126, "count": 3, "type": "VEC3""#,
+            "QRT0329",
+        ),
+        (
+            r#""componentType": 5126, "count": 9, "type": "VEC3""#,
+            "QRT0351",
+        ),
+    ] {
+        let error = coloured(accessor, &data, true).unwrap_err().to_string();
+        assert!(error.contains(code), "{error}");
+        assert!(error.contains("meshes[0].primitives[0]"), "{error}");
+    }
+    let accessor = r#""componentType": 5126, "count": 4, "type": "VEC3""#;
+    let bright: Vec<u8> = [1.5_f32; 12]
+        .into_iter()
+        .flat_map(f32::to_le_bytes)
+        .collect();
+    let error = coloured(accessor, &bright, true).unwrap_err().to_string();
+    assert!(
+        error.contains("1.5") && error.contains("QRT0338"),
+        "{error}"
     );
-    let nodes = |nodes: &str| format!("\"nodes\": [{nodes}]");
-    let [one, two] = [
-        r#"{ "mesh": 0 }"#,
-        r#"{ "children": [1, 2] }, { "mesh": 0 }, { "mesh": 1, "translation": [9, 0, 0] }"#,
-    ]
-    .map(nodes);
-    for (nodes, words) in [(one, "`fox` "), (two, "`fox` and 1 other ")] {
-        let mut text = json(&[
-            (r#""nodes": [{ "mesh": 0 }]"#, &nodes),
-            (r#""meshes": ["#, &meshes),
-        ]);
-        let mesh = read(&text).unwrap();
+}
+
+#[test]
+fn colours_that_are_not_used_are_named_once() {
+    let attributes = r#""attributes": { "POSITION": 0, "COLOR_0": 0 }"#;
+    let plain = r#""attributes": { "POSITION": 0 }"#;
+    let primitive = format!(r#"{{ {attributes}, "indices": 1, "material": 0 }}"#);
+    let meshes = format!(r#""meshes": [ {{ "primitives": [{primitive}, {primitive}] }},"#);
+    let text = json(&[(r#""meshes": ["#, &meshes)]);
+    for wants_materials in [true, false] {
+        let mesh = read_with(text.as_bytes(), wants_materials).unwrap();
+        assert!(mesh.colours.is_empty());
         let notes = mesh.notes.iter().map(ToString::to_string);
-        let notes: Vec<String> = notes.filter(|note| note.contains("COLOR_0")).collect();
+        let notes: Vec<String> = notes.filter(|note| note.contains("QRT0354")).collect();
         let [note] = &notes[..] else {
             panic!("{notes:?}");
         };
         assert!(note.contains("meshes[0].primitives[0]"), "{note}");
-        assert!(note.contains(words) && note.contains("QRT0346"), "{note}");
-        // A material of the scene replaces them.
-        let mesh = read_with(text.as_bytes(), false).unwrap();
-        let notes: Vec<String> = mesh.notes.iter().map(ToString::to_string).collect();
-        assert!(!notes.concat().contains("COLOR_0"), "{notes:?}");
-        text = text.replace(coloured, plain);
-        let notes = read(&text).unwrap().notes;
-        assert!(
-            notes
-                .iter()
-                .all(|note| !note.to_string().contains("COLOR_0"))
-        );
     }
+    let notes = read(&text.replace(attributes, plain)).unwrap().notes;
+    assert!(
+        notes
+            .iter()
+            .all(|note| !note.to_string().contains("QRT0354"))
+    );
 }
 
 #[test]

@@ -1,12 +1,13 @@
-//! Collects the triangles of a mesh and the normals of their corners, and leaves out triangles without
-//! area and copies.
+//! Collects the triangles of a mesh with the normals and colours of their corners, and leaves out
+//! triangles without area and copies.
 
 use super::polygon;
+use crate::Rgb;
 use crate::polygons::{MOST_PAIRS, mean_normals, unit_normal};
 use crate::scene::meshes::{FileError, FileFace, FileMesh, FilePlace};
-use crate::syntax::MeshFile;
 use crate::valid::triangle_fault;
 use glam::DVec3;
+use qrt_syntax::MeshFile;
 use std::path::Path;
 
 /// The triangles of a mesh so far. Faces without area are left out at once, copies at the end.
@@ -15,6 +16,8 @@ pub(in crate::front) struct Collector {
     faces: Vec<FileFace>,
     /// For each triangle, its shading. Shorter than `faces` if the last ones are flat.
     shading: Vec<Shading>,
+    /// For each triangle, the colours of its corners; empty if faces have none.
+    colours: Vec<[Rgb; 3]>,
     /// For each triangle, the number of its face in the file.
     origins: Vec<u32>,
     flat: LeftOut,
@@ -34,6 +37,15 @@ impl LeftOut {
         }
         self.count += 1;
     }
+}
+
+/// The corners of a face in its file, in the order of its outline.
+#[derive(Clone, Copy)]
+pub(in crate::front) struct Corners<'a> {
+    pub(in crate::front) places: &'a [DVec3],
+    pub(in crate::front) normals: Normals<'a>,
+    /// Linear RGB from 0 to 1, by corner; empty for all faces of a mesh whose colours are not wanted.
+    pub(in crate::front) colours: &'a [Rgb],
 }
 
 /// The normals of a face's corners in its file.
@@ -63,11 +75,11 @@ impl Collector {
     /// The reason that the face cannot be cut; that it has no area is none.
     pub(in crate::front) fn add(
         &mut self,
-        corners: &[DVec3],
-        normals: Normals<'_>,
+        face: Corners<'_>,
         material: Option<usize>,
         origin: u32,
     ) -> Result<(), MeshFile> {
+        let corners = face.places;
         let triangles = match polygon::triangles(corners) {
             Err(MeshFile::NoArea) => {
                 self.flat.add(origin);
@@ -81,7 +93,11 @@ impl Collector {
                 self.flat.add(origin);
                 continue;
             }
-            let shading = match normals {
+            if !face.colours.is_empty() {
+                let colours = triangle.map(|corner| face.colours[corner]);
+                self.colours.push(colours);
+            }
+            let shading = match face.normals {
                 Normals::Flat => Shading::Flat,
                 Normals::OfCorners(normals) => {
                     Shading::OfCorners(triangle.map(|corner| normals[corner]))
@@ -118,6 +134,9 @@ impl Collector {
         let mut copies = LeftOut::default();
         let is_copy = copied(&self.faces);
         let mut triangles = self.origins.iter().zip(is_copy);
+        let coloured = std::mem::take(&mut self.colours);
+        let mut coloured = coloured.into_iter();
+        let mut colours = Vec::with_capacity(coloured.len());
         let shading = std::mem::take(&mut self.shading);
         let mut shading = shading.into_iter();
         let mut kept = Vec::new();
@@ -126,6 +145,7 @@ impl Collector {
             let copy = triangles.next().filter(|(_, is_copy)| *is_copy);
             let is_kept = copy.inspect(|(origin, _)| copies.add(**origin)).is_none();
             kept.extend(shading.filter(|_| is_kept));
+            colours.extend(coloured.next().filter(|_| is_kept));
             is_kept
         });
         let normals = corner_normals(&self.faces, &kept);
@@ -139,6 +159,7 @@ impl Collector {
         Ok(FileMesh {
             faces: self.faces,
             normals,
+            colours,
             materials: Vec::new(),
             files: vec![path.to_owned()],
             notes: flat.into_iter().chain(copies).collect(),
@@ -220,6 +241,14 @@ mod tests {
         FilePlace::Line(origin as usize + 1)
     }
 
+    fn flat(places: &[DVec3]) -> Corners<'_> {
+        Corners {
+            places,
+            normals: Normals::Flat,
+            colours: &[],
+        }
+    }
+
     #[test]
     fn copies_are_left_out_whichever_corner_comes_first() {
         let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -236,7 +265,7 @@ mod tests {
         .iter()
         .enumerate()
         {
-            let added = collector.add(face, Normals::Flat, Some(origin), origin as u32);
+            let added = collector.add(flat(face), Some(origin), origin as u32);
             added.unwrap();
         }
         let FileMesh { faces, notes, .. } = collector.finish("m".as_ref(), place).unwrap();
@@ -248,6 +277,33 @@ mod tests {
     }
 
     #[test]
+    fn triangles_keep_the_colours_of_their_corners() {
+        let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+        let colours = [[0.0; 3], [0.25; 3], [0.5; 3], [0.75; 3]];
+        let mut collector = Collector::default();
+        // The second face has no area, the third is a copy of half of the first.
+        for (places, colours) in [
+            (&[a, b, c, d][..], &colours[..]),
+            (&[a, b, b], &[[1.0; 3]; 3]),
+            (&[a, b, c], &[[1.0; 3]; 3]),
+            (&[c, b, DVec3::Z], &colours[1..]),
+        ] {
+            let face = Corners {
+                colours,
+                ..flat(places)
+            };
+            collector.add(face, None, 0).unwrap();
+        }
+        let mesh = collector.finish("m".as_ref(), place).unwrap();
+        let found: Vec<_> = mesh.colours.iter().map(|face| face.map(|c| c[0])).collect();
+        assert_eq!(
+            found,
+            [[0.0, 0.25, 0.5], [0.0, 0.5, 0.75], [0.25, 0.5, 0.75]]
+        );
+        assert_eq!(mesh.faces.len(), 3);
+    }
+
+    #[test]
     fn a_mesh_needs_a_face_with_an_area() {
         let mut collector = Collector::default();
         let refused = Collector::default().finish("m".as_ref(), place);
@@ -255,7 +311,7 @@ mod tests {
         // The second is thinner than the checks of a scene allow.
         let thin = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 3e-13, 0.0)];
         for face in [[DVec3::ZERO, DVec3::X, DVec3::X], thin] {
-            collector.add(&face, Normals::Flat, None, 6).unwrap();
+            collector.add(flat(&face), None, 6).unwrap();
         }
         let refused = collector.finish("m".as_ref(), place).unwrap_err();
         assert_eq!(

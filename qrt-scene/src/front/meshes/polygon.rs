@@ -1,7 +1,7 @@
 //! Cuts polygons into triangles: a fan if convex, else by ear clipping.
 
-use crate::syntax::MeshFile;
 use glam::{DVec2, DVec3};
+use qrt_syntax::MeshFile;
 
 /// Maximum number of corners of a face that is not convex: ear clipping takes up to their cube.
 const MAX_CONCAVE: usize = 256;

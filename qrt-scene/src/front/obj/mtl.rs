@@ -6,8 +6,8 @@ use super::{FileError, Library, bare, name, numbers, split, statements, text_of,
 use crate::front::meshes::surface;
 use crate::scene::meshes::FileMaterial;
 use crate::scene::{Dielectric, Emitter, Lambertian, Material, Phong, Rgb};
-use crate::syntax::tree::shorten;
-use crate::syntax::{MeshFile, nearest};
+use qrt_syntax::tree::shorten;
+use qrt_syntax::{MeshFile, nearest};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,11 @@
 //! Checks an OBJ file, statement by statement, as `tobj` reads it.
 
 use super::{Faces, FileError, name, numbers, split, statements, tokens};
+use crate::Rgb;
+use crate::front::meshes::colour;
 use crate::scene::meshes::{FilePlace, Wanted};
-use crate::syntax::{MeshFile, nearest};
 use glam::DVec3;
+use qrt_syntax::{MeshFile, nearest};
 use std::borrow::Cow;
 use std::collections::{HashMap, VecDeque};
 use std::io::{self, Read};
@@ -37,6 +39,12 @@ pub(super) struct Scanner<'a> {
     /// The error: the reader of this stream sees only that there is one.
     pub(super) fault: Option<FileError>,
     pub(super) faces: Vec<Face>,
+    /// The colours of the vertices so far; empty if they are not wanted.
+    pub(super) colours: Vec<Rgb>,
+    /// The line of the first vertex with a colour.
+    pub(super) first_coloured: Option<usize>,
+    /// By corner of the faces, in order: the index of its vertex, if colours are wanted.
+    pub(super) corner_vertices: Vec<usize>,
     /// The normals so far; 0 for one that is not three finite numbers.
     pub(super) normals: Vec<DVec3>,
     /// By corner of the faces that name normals, in order: the index of its normal in `normals`.
@@ -106,6 +114,9 @@ impl<'a> Scanner<'a> {
             pending: VecDeque::new(),
             fault: None,
             faces: Vec::new(),
+            colours: Vec::new(),
+            first_coloured: None,
+            corner_vertices: Vec::new(),
             normals: Vec::new(),
             corner_normals: Vec::new(),
             group: None,
@@ -121,7 +132,7 @@ impl<'a> Scanner<'a> {
         let (keyword, rest) = split(statement)?;
         let is_in = |keywords: &str| keywords.split(' ').any(|known| known == keyword);
         match keyword {
-            "v" => self.vertex(rest)?,
+            "v" => self.vertex(line, rest)?,
             // No picture depends on their numbers.
             "vt" => self.counts[1] += 1,
             "vn" => self.normal(rest),
@@ -161,8 +172,9 @@ impl<'a> Scanner<'a> {
         self.pending.push_back(b'\n');
     }
 
-    /// Reads `v x y z`, `v x y z w`, `v x y z r g b` or `v x y z r g b a`, and drops the colours.
-    fn vertex(&mut self, rest: &str) -> Result<(), MeshFile> {
+    /// Reads `v x y z`, `v x y z w`, `v x y z r g b` or `v x y z r g b a`. Colours are dropped unless they
+    /// are wanted, and so is an opacity.
+    fn vertex(&mut self, line: usize, rest: &str) -> Result<(), MeshFile> {
         let given = tokens(rest).count();
         let kept = match given {
             3 | 6 | 7 => 3,
@@ -178,6 +190,15 @@ impl<'a> Scanner<'a> {
         let most = 3 * self.most.left;
         if self.counts[0] > most as i64 {
             return Err(MeshFile::ManyVertices { most });
+        }
+        if given >= 6 {
+            self.first_coloured.get_or_insert(line);
+        }
+        if self.wanted.colours {
+            let [_, _, _, red, green, blue] = numbers(rest, 6, false)?[..] else {
+                return Err(MeshFile::NoColour);
+            };
+            self.colours.push(colour([red, green, blue])?);
         }
         self.hand_on("v", tokens(rest).take(kept));
         Ok(())
@@ -199,9 +220,12 @@ impl<'a> Scanner<'a> {
         }
         let first = self.corner_normals.len();
         for corner in tokens(rest) {
-            let normal = self.corner(line, corner)?;
+            let [vertex, _, normal] = self.corner(line, corner)?;
             if self.wanted.normals {
                 self.corner_normals.push(normal);
+            }
+            if self.wanted.colours {
+                self.corner_vertices.extend(vertex);
             }
         }
         self.hand_on("f", tokens(rest));
@@ -239,9 +263,9 @@ impl<'a> Scanner<'a> {
     }
 
     /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices from 1, or backwards from -1. Returns the
-    /// index of the normal, from 0.
-    fn corner(&mut self, line: usize, corner: &str) -> Result<Option<usize>, MeshFile> {
-        let mut normal = None;
+    /// indices of the elements of each of [`KINDS`], from 0.
+    fn corner(&mut self, line: usize, corner: &str) -> Result<[Option<usize>; 3], MeshFile> {
+        let mut found = [None; 3];
         for (number, part) in corner.split('/').enumerate() {
             if part.is_empty() && (1..3).contains(&number) {
                 continue;
@@ -265,12 +289,10 @@ impl<'a> Scanner<'a> {
             if index > greatest.0 {
                 *greatest = (index, line);
             }
-            if number == 2 {
-                let from_start = if index < 0 { before + index } else { index - 1 };
-                normal = usize::try_from(from_start).ok();
-            }
+            let from_start = if index < 0 { before + index } else { index - 1 };
+            found[number] = usize::try_from(from_start).ok();
         }
-        Ok(normal)
+        Ok(found)
     }
 
     /// Makes the checks that are possible only at the end.

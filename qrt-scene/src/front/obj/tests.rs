@@ -1,5 +1,6 @@
 //! Tests of the reader: valid meshes are read as they are, wrong ones are refused at their line.
 
+mod colours;
 mod lines;
 mod materials;
 mod normals;
@@ -9,8 +10,8 @@ use crate::front::load_all;
 use crate::scene::meshes::{FileFace, Meshes};
 use crate::scene::shape::Part as _;
 use crate::scene::{Emitter, Geometry, Lambertian, Material, Scene};
-use crate::syntax::{Place, Problems, codes};
 use proptest::prelude::*;
+use qrt_syntax::{Place, Problems, codes};
 use std::path::PathBuf;
 
 /// The mesh of a text whose libraries are `files`.
@@ -29,6 +30,7 @@ fn read_with(text: &str, files: &[(&str, &str)]) -> Result<FileMesh, FileError> 
         Wanted {
             materials: !files.is_empty(),
             normals: true,
+            colours: false,
         },
         Faces::default(),
         &mut library,
@@ -368,10 +370,10 @@ fn files_are_looked_up_beside_the_mesh() {
     let text = |library: &str| TWO.replace("my colours.mtl", library);
     std::fs::write(&obj, text("../colours.mtl")).unwrap();
     std::fs::write(dir.join("colours.mtl"), COLOURS).unwrap();
-    refused(load(&obj, Wanted::ALL), "QRT0319", Some(4), "is outside");
+    refused(load(&obj, Wanted::USUAL), "QRT0319", Some(4), "is outside");
     std::fs::write(&obj, text("more/colours.mtl")).unwrap();
     refused(
-        load(&obj, Wanted::ALL),
+        load(&obj, Wanted::USUAL),
         "QRT0334",
         Some(4),
         "there is no such file",
@@ -379,7 +381,7 @@ fn files_are_looked_up_beside_the_mesh() {
     std::fs::create_dir(dir.join("deep/more")).unwrap();
     std::fs::write(dir.join("deep/more/colours.mtl"), COLOURS).unwrap();
     assert_eq!(
-        load(&obj, Wanted::ALL).unwrap().materials[1].label,
+        load(&obj, Wanted::USUAL).unwrap().materials[1].label,
         "more/colours.mtl:lamp"
     );
     refused(
@@ -398,7 +400,7 @@ fn files_are_looked_up_beside_the_mesh() {
     let latin = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9\nf 1 2 3\n";
     std::fs::write(&obj, latin).unwrap();
     assert_eq!(load(&obj, Wanted::default()).unwrap().faces.len(), 1);
-    refused(load(&obj, Wanted::ALL), "QRT0322", Some(5), "not UTF-8");
+    refused(load(&obj, Wanted::USUAL), "QRT0322", Some(5), "not UTF-8");
     std::fs::remove_dir_all(&dir).unwrap();
 }
 
@@ -561,7 +563,11 @@ proptest! {
         materials in any::<bool>(),
         normals in any::<bool>(),
     ) {
-        let wants = Wanted { materials, normals };
+        let wants = Wanted {
+            materials,
+            normals,
+            colours: false,
+        };
         let mut library = |_: &Path| Ok(mtl.clone().into());
         match parse(Path::new("mesh.obj"), &obj, wants, Faces::default(), &mut library) {
             Ok(mesh) => {

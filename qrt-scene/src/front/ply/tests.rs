@@ -3,6 +3,7 @@
 use super::*;
 use crate::scene::meshes::FileFace;
 use proptest::prelude::*;
+use std::fmt::Write as _;
 
 /// A cube: 8 vertices and 6 quads.
 const VERTICES: [[f32; 3]; 8] = [
@@ -110,6 +111,7 @@ fn read(bytes: &[u8]) -> Result<FileMesh, FileError> {
         Wanted {
             materials: false,
             normals: true,
+            colours: false,
         },
         Faces::default(),
     )
@@ -347,7 +349,7 @@ fn claims_of_a_header_take_neither_memory_nor_time() {
 
 #[test]
 fn a_mesh_without_a_material_of_the_scene_is_refused() {
-    let error = parse("m".as_ref(), &ascii("\n"), Wanted::ALL, Faces::default()).unwrap_err();
+    let error = parse("m".as_ref(), &ascii("\n"), Wanted::USUAL, Faces::default()).unwrap_err();
     assert_eq!(*error.what, MeshFile::NoMaterials);
 }
 
@@ -393,4 +395,66 @@ fn vertices_may_have_normals() {
     // Two of the three are no normal.
     let two = text("property float nx\nproperty float ny\n", ["1 0"; 3]);
     assert!(read(two.as_bytes()).unwrap().normals.is_empty());
+}
+
+/// A triangle with properties of this type and colours of these words, with or without wanting them.
+fn coloured(types: [&str; 3], colours: [&str; 3], wanted: bool) -> Result<FileMesh, FileError> {
+    let mut text = "ply\nformat ascii 1.0\nelement vertex 3\n".to_owned();
+    for (name, of) in ["red", "green", "blue"].into_iter().zip(types) {
+        let _ = writeln!(text, "property {of} {name}");
+    }
+    text += "property float x\nproperty float y\nproperty float z\nelement face 1\n\
+             property list uchar int vertex_indices\nend_header\n";
+    for (colour, place) in colours.into_iter().zip(["0 0 0", "1 0 0", "0 1 0"]) {
+        let _ = writeln!(text, "{colour} {place}");
+    }
+    text += "3 2 0 1\n";
+    let wanted = Wanted {
+        colours: wanted,
+        ..Wanted::default()
+    };
+    parse("m.ply".as_ref(), text.as_bytes(), wanted, Faces::default())
+}
+
+#[test]
+fn colours_are_in_units_of_their_type() {
+    let words = ["255 65535 1", "51 0 0.25", "0 13107 0.5"];
+    let mesh = coloured(["uchar", "ushort", "double"], words, true).unwrap();
+    let expected = [[0.0, 0.2, 0.5], [1.0, 1.0, 1.0], [0.2, 0.0, 0.25]];
+    assert_eq!(mesh.colours, [expected]);
+    assert!(mesh.notes.is_empty());
+    let plain = coloured(["uchar", "ushort", "double"], words, false).unwrap();
+    assert!(plain.colours.is_empty());
+    let [note] = &plain.notes[..] else {
+        panic!("{:?}", plain.notes);
+    };
+    assert_eq!(*note.what, MeshFile::ColoursUnused);
+}
+
+#[test]
+fn colours_of_other_types_or_values_are_refused() {
+    let black = ["0 0 0"; 3];
+    for of in ["char", "short", "int", "uint32"] {
+        let error = coloured(["uchar", of, "uchar"], black, true).unwrap_err();
+        let error = error.to_string();
+        assert!(
+            error.contains("m.ply:12: ") && error.contains("`green`"),
+            "{error}"
+        );
+        assert!(error.contains("QRT0353"), "{error}");
+    }
+    for (colour, words) in [
+        ("0 256 0", "1.0039"),
+        ("0 0 -0.5", "-0.5"),
+        ("0 0 nan", "NaN"),
+    ] {
+        let types = ["uchar", "uchar", "float"];
+        let error = coloured(types, ["0 0 0", colour, "0 0 0"], true).unwrap_err();
+        let error = error.to_string();
+        assert!(
+            error.contains("m.ply:14: ") && error.contains(words),
+            "{error}"
+        );
+        assert!(error.contains("QRT0338"), "{error}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Converts lines and columns of characters to bytes.
 
-use crate::syntax::line_starts;
-use crate::syntax::tree::Span;
+use qrt_syntax::line_starts;
+use qrt_syntax::tree::Span;
 use saphyr_parser::Marker;
 
 /// Turns the parser's lines and columns, which count characters, into bytes.

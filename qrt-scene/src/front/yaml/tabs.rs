@@ -69,8 +69,8 @@ fn contents(text: &str) -> Vec<Range<usize>> {
 mod tests {
     use super::super::read;
     use super::*;
-    use crate::syntax::tree::Value;
-    use crate::syntax::{Problems, Report, Source};
+    use qrt_syntax::tree::Value;
+    use qrt_syntax::{Problems, Report, Source};
 
     #[test]
     fn only_tabs_between_a_colon_and_its_value_are_replaced() {

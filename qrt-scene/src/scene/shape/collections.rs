@@ -1,10 +1,11 @@
 //! Shapes made of other shapes: lists, maps from names, values that may be left out.
 
 use super::{Expression, LARGEST, Number, Shape, number};
+use crate::scene::decode;
 use crate::scene::text::Data;
-use crate::syntax::tree::{Entry, Found, Kind, Node, Value};
-use crate::syntax::{Datum, Expected, Material, Place, Problems, Structure, What};
 use glam::DVec3;
+use qrt_syntax::tree::{Entry, Found, Kind, Node, Value};
+use qrt_syntax::{Datum, Expected, Material, Place, Problems, Structure, What};
 
 /// A list of exactly `N` elements.
 pub(crate) struct Array<S, const N: usize>(pub(crate) S);
@@ -12,7 +13,7 @@ pub(crate) struct Array<S, const N: usize>(pub(crate) S);
 impl<S: Shape, const N: usize> Array<S, N> {
     fn items(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Option<[S::Value; N]> {
         let Value::List(items) = &node.value else {
-            problems.wrong_type(node, at, Expected::Elements(N));
+            decode::wrong_type(problems, node, at, Expected::Elements(N));
             return None;
         };
         let is_whole = items.iter().all(|item| item.value != Value::Unread);
@@ -144,7 +145,7 @@ impl<S: Shape> Shape for List<S> {
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
         let Value::List(items) = &node.value else {
             let may_be_empty = self.least == 0;
-            problems.wrong_type(node, at, Expected::List { may_be_empty });
+            decode::wrong_type(problems, node, at, Expected::List { may_be_empty });
             return self.fallback();
         };
         let decode = |(i, item)| self.item.decode(item, &at.item(i), problems);
@@ -181,7 +182,7 @@ impl<S: Shape> Shape for Named<S> {
     type Value = Vec<(String, S::Value)>;
     fn decode(&self, node: &Node, at: &Place<'_>, problems: &mut Problems) -> Self::Value {
         let Value::Map(entries) = &node.value else {
-            problems.wrong_type(node, at, Expected::Named);
+            decode::wrong_type(problems, node, at, Expected::Named);
             return Vec::new();
         };
         let decode = |entry: &Entry| {

@@ -1,6 +1,6 @@
 //! A proven upper bound of an expression.
 
-use crate::expr::{Domain, Expr, Interval, Variable, Variables};
+use qrt_syntax::expr::{Domain, Expr, Interval, Variable, Variables};
 use std::collections::BinaryHeap;
 
 /// A part of the domain, ordered by its upper bound.

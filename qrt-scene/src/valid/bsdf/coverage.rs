@@ -15,8 +15,8 @@
 //! depend on u or v, their map may leave directions out, which are then black, but must cover none
 //! more than once.
 
-use crate::expr::{Expr, Variable, Variables};
-use crate::syntax::{Bsdf, Path, Problem};
+use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 

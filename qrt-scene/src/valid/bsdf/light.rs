@@ -2,8 +2,8 @@
 
 use super::shape::points;
 use super::undefined::{situation, undefined_part};
-use crate::expr::{Expr, Variable, Variables};
-use crate::syntax::{Bsdf, Path, Problem};
+use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
 
 /// Minimum value below zero that counts as rounding. A constant has no rounding.

@@ -2,8 +2,8 @@
 
 use super::shape::{points, solid_angle};
 use super::undefined::undefined_part;
-use crate::expr::{Expr, Variable, Variables};
-use crate::syntax::{Bsdf, Mistake, Path, Problem};
+use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::{Bsdf, Mistake, Path, Problem};
 use std::f64::consts::TAU;
 
 /// Maximum relative deviation of a stated density from the map's.

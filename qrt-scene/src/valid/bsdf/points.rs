@@ -1,11 +1,11 @@
 //! Points that are hit: the box that they lie in, and those of them at which a value is checked.
 
-use crate::expr::{Domain, Expr, Interval, Variable};
 use crate::lights::Lamp;
 use crate::scene::Bsdf;
-use crate::syntax::{Bsdf as Fault, Problem, What};
 use crate::valid::{Ball, Polygon};
 use glam::DVec3;
+use qrt_syntax::expr::{Domain, Expr, Interval, Variable};
+use qrt_syntax::{Bsdf as Fault, Problem, What};
 use std::f64::consts::TAU;
 
 /// Maximum number of points at which a value is checked.

@@ -1,7 +1,7 @@
 //! Checks that a value is reciprocal: `f(i, o) = f(o, i)`, as physics requires.
 
-use crate::expr::{Expr, Variable, Variables};
-use crate::syntax::{Bsdf, Path, Problem};
+use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::{Bsdf, Path, Problem};
 
 /// Maximum relative difference of the two values.
 const OFF: f64 = 1e-6;

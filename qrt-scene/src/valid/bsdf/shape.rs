@@ -1,10 +1,10 @@
 //! Checks of a map and its Jacobian at points of the square.
 
 use super::undefined::undefined_part;
-use crate::expr::{Expr, Variable, Variables};
 use crate::sampling::maps;
-use crate::syntax::{Bsdf, Mistake, Path, Problem};
 use glam::DVec3;
+use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::{Bsdf, Mistake, Path, Problem};
 
 /// Maximum deviation of a direction's length from 1.
 const OFF_SPHERE: f64 = 1e-9;

@@ -4,7 +4,7 @@
 mod parts;
 
 use super::*;
-use crate::expr::Variables;
+use qrt_syntax::expr::Variables;
 
 const COSINE: [&str; 3] = ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"];
 const UNIFORM: [&str; 3] = [

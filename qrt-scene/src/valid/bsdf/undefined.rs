@@ -1,7 +1,7 @@
 //! Parts of an expression without a finite value, and the point at which they occur.
 
-use crate::expr::{Expr, VariableSet, Variables};
-use crate::syntax::Bsdf;
+use qrt_syntax::Bsdf;
+use qrt_syntax::expr::{Expr, VariableSet, Variables};
 
 /// Returns a problem if a part of `f` is not finite while `f` is, such as the quotient in
 /// `atan2(1/0, 1)`. `values` are the values of its nodes at `at`.

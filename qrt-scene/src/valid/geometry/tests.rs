@@ -32,6 +32,7 @@ fn built(vertices: &[DVec3; 4]) -> Vec<Polygon> {
         names: HashMap::new(),
         out: vec![],
         smooth: vec![],
+        coloured: vec![],
         pairs_left: MOST_PAIRS,
         balls: vec![],
         spheres: HashSet::new(),

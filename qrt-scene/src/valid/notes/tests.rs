@@ -1,7 +1,7 @@
 //! Warnings of black pictures, of lamps in one place, and of materials that nothing uses.
 
 use crate::front::parse;
-use crate::syntax::Report;
+use qrt_syntax::Report;
 
 /// Returns the warnings of a scene with these `geometry` entries and `rays`, as codes and lines.
 #[track_caller]

@@ -73,8 +73,8 @@ impl Shot {
 #[derive(Clone, Debug)]
 pub(super) struct Colours {
     all: f64,
-    /// Number of paths drawn at random.
-    sampled: f64,
+    /// The density of the first measurements at the colours 0 and 1, between which it is linear.
+    first: [f64; 2],
     /// Number of measurements.
     times: f64,
     /// In ascending order.
@@ -89,12 +89,19 @@ pub(super) struct Colours {
 pub(super) struct Spread {
     /// The standard deviation of colours, with that of colours that may have been missed.
     pub(super) deviation: f64,
+    /// The variance of the measured colours alone.
+    pub(super) seen: f64,
     /// The factor of a colour's distance from the reference.
     pub(super) slope: f64,
     /// The eigenphase over the mean's distance from the reference.
     pub(super) gain: f64,
     /// The fraction of the signal that has this eigenphase.
     pub(super) visibility: f64,
+}
+
+/// The value at `x` of the line through these values at 0 and 1.
+fn between([zero, one]: [f64; 2], x: f64) -> f64 {
+    zero + (one - zero) * x
 }
 
 /// The variance that paths may add which `times` measurements have missed.
@@ -109,25 +116,49 @@ pub(super) fn missed(mean: f64, times: f64) -> f64 {
 impl Colours {
     /// The colours of paths drawn at random: levels over `2^bits`, and how often they were drawn.
     pub(super) fn of_random(levels: impl Iterator<Item = (u64, u64)>, bits: u32) -> Self {
+        let levels: Vec<(u64, u64)> = levels.collect();
+        let drawn: u64 = levels.iter().map(|(_, times)| times).sum();
+        Self::new(levels.into_iter(), bits, [drawn as f64; 2])
+    }
+
+    /// The colours of paths that counting circuits measured: levels over `2^bits`, each with its numbers of good
+    /// indices and of others.
+    ///
+    /// A good index has a path of colour x with a probability in proportion to x, and any other index in
+    /// proportion to 1 - x. `amplitude` is the fraction of good indices, neither 0 nor 1.
+    pub(super) fn of_counted(
+        levels: impl Iterator<Item = (u64, [u64; 2])> + Clone,
+        bits: u32,
+        amplitude: f64,
+    ) -> Self {
+        let [good, others] = [0, 1].map(|which| {
+            let sum: u64 = levels.clone().map(|(_, found)| found[which]).sum();
+            sum as f64
+        });
+        let levels = levels.map(|(level, [good, others])| (level, good + others));
+        Self::new(levels, bits, [others / (1.0 - amplitude), good / amplitude])
+    }
+
+    /// Levels over `2^bits`, how often they were measured, and the density of the measurements at the colours 0
+    /// and 1.
+    fn new(levels: impl Iterator<Item = (u64, u64)>, bits: u32, first: [f64; 2]) -> Self {
         let all = (1_u64 << bits) as f64;
-        let drawn = levels.filter(|&(_, times)| times > 0);
-        let drawn: Vec<(f64, f64)> = drawn
-            .map(|(level, times)| (level as f64 / all, times as f64))
-            .collect();
-        let sampled = drawn.iter().map(|(_, times)| times).sum();
         let entry = |(colour, times)| Seen {
             colour,
             times,
-            density: sampled,
+            density: between(first, colour),
         };
+        let measured = levels.filter(|&(_, times)| times > 0);
+        let measured = measured.map(|(level, times)| entry((level as f64 / all, times as f64)));
+        let seen: Vec<Seen> = measured.collect();
         let bright = (0..=2 * OCTAVES).map(|n| libm::exp2(-0.5 * f64::from(n)));
         let unseen = bright.chain([0.0]).map(|colour| entry((colour, 0.0)));
         Self {
             all,
-            sampled,
-            times: sampled,
-            seen: drawn.into_iter().map(entry).collect(),
+            first,
+            times: seen.iter().map(|seen| seen.times).sum(),
             unseen: unseen.collect(),
+            seen,
             shots: Vec::new(),
         }
     }
@@ -143,9 +174,25 @@ impl Colours {
         if weights > 0.0 { sum / weights } else { 0.0 }
     }
 
-    /// Number of paths that were drawn at random.
-    pub(super) fn sampled(&self) -> f64 {
-        self.sampled
+    /// The standard error of the mean of the colours, with what colours may add that have been missed.
+    pub(super) fn error_of_mean(&self, mean: f64) -> f64 {
+        let (mut weights, mut squares) = (0.0, 0.0);
+        for seen in &self.seen {
+            let off = (seen.colour - mean) / seen.density;
+            weights += seen.times / seen.density;
+            squares += seen.times * off * off;
+        }
+        let missed = self
+            .unseen
+            .iter()
+            .map(|seen| (seen.colour - mean).abs() / seen.density);
+        let missed = UNSEEN * missed.fold(0.0, f64::max);
+        (squares.sqrt() / weights).hypot(missed)
+    }
+
+    /// Number of measurements.
+    pub(super) fn times(&self) -> f64 {
+        self.times
     }
 
     /// Adds the level that a shot of the mean-phase circuit measured after k iterates.
@@ -199,7 +246,7 @@ impl Colours {
                 let new = Seen {
                     colour,
                     times: 1.0,
-                    density: self.sampled + densities.iter().sum::<f64>(),
+                    density: between(self.first, colour) + densities.iter().sum::<f64>(),
                 };
                 self.seen.insert(place, new);
             }
@@ -237,6 +284,7 @@ impl Colours {
         };
         Spread {
             deviation,
+            seen: known,
             slope,
             gain: 2.0 * slope / (1.0 + square_of_y),
             visibility: (length * length / (1.0 + square_of_y)).min(1.0),

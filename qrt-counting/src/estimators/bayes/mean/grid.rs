@@ -47,8 +47,12 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// A posterior with heavy tails around a mean.
+    /// Standard deviations from the mean that are well within the first grid.
+    pub(super) const REACH: f64 = FIRST - 2.0;
+
+    /// A posterior with heavy tails around a mean, of a standard deviation above 0.
     pub(super) fn around(mean: f64, deviation: f64) -> Self {
+        let deviation = deviation.max(f64::MIN_POSITIVE.sqrt());
         let low = (mean - FIRST * deviation).max(0.0);
         let high = (mean + FIRST * deviation).min(1.0);
         let mut grid = Self {

@@ -6,14 +6,17 @@
 //! `alpha = eta/sigma` it turns by `2 eta/((1 + eta^2) sigma)` a query and unit of the mean, and the
 //! error is about `3.4 sigma` over the queries.
 //!
-//! A run begins with paths drawn at random, which show colours and roughly their mean. Then each
-//! shot
+//! A run begins with paths drawn at random, or with those of a run that has counted: they show
+//! colours and roughly their mean. Then each shot
 //!
 //! * takes the mean so far as its reference, where the phase is 0, whatever the colours are;
 //! * takes sigma, and with it slope and phase a unit of the mean, from all colours measured so far:
 //!   see [`Colours`];
 //! * takes the depth and the measured angle that are expected to sharpen the posterior of the mean
 //!   most per query: see [`Grid::choose`].
+//!
+//! The colours have a mean of their own. If the posterior's is far from it, the posterior may be at a
+//! wrong mode, and begins anew.
 //!
 //! Kothari & O'Donnell, *Mean estimation when you have the source code* (2022), showed that an error
 //! in proportion to sigma over the queries is possible. The choice of slope and reference before every shot, from the
@@ -22,7 +25,8 @@
 mod colours;
 mod grid;
 
-use super::{Goal, choice, depth};
+use super::posterior::Posterior;
+use super::{FAR, Goal, depth};
 use crate::estimators::device::Usage;
 use crate::estimators::normal::normal_quantile;
 use crate::estimators::{Device, Estimate, EstimatorError, id_bits};
@@ -49,8 +53,13 @@ const ASKED: u64 = 48;
 /// The most queries of a run, over the depth that noise leaves intact: the likelihood has one eigenphase,
 /// and what it leaves out would outweigh the outcomes of more shots of one depth.
 const SHOTS: f64 = 64.0;
+/// Distance of the posterior's mean from that of the measured colours, in standard errors, at which the posterior is
+/// at a wrong mode.
+const ELSEWHERE: f64 = 6.0;
 /// The factor by which the mean of these may be less certain than it seems.
 const DOUBT: f64 = 1.3;
+/// The largest standard deviation of a mean that counting has found, over the colours' standard deviation.
+const NEAR: f64 = 0.4;
 /// The smallest standard deviation at which a run goes on.
 const KNOWN: f64 = 1e-13;
 /// The smallest probability of a right reading with which the circuit is run.
@@ -66,11 +75,12 @@ const EXPLAINED: f64 = 0.95;
 /// Otherwise the number of shots would grow with the queries. Counting makes such shots together.
 pub(super) fn is_open(goal: &Goal, device: &Device<'_>) -> bool {
     let deep = goal.queries as f64 <= SHOTS * depth::useful(&goal.noise);
-    check(device).is_ok_and(|bits| deep && read_rightly(goal, device, bits) > READ)
+    check(device).is_ok() && deep && read_rightly(goal, device) > READ
 }
 
 /// The probability that the path index and the sign are read rightly.
-fn read_rightly(goal: &Goal, device: &Device<'_>, bits: u32) -> f64 {
+pub(super) fn read_rightly(goal: &Goal, device: &Device<'_>) -> f64 {
+    let bits = device.level_bits().unwrap_or_default();
     goal.noise.read_rightly(id_bits(device.total() >> bits) + 1)
 }
 
@@ -83,12 +93,12 @@ pub(super) fn check(device: &Device<'_>) -> Result<u32, EstimatorError> {
     Ok(bits)
 }
 
-/// Colours of paths that are drawn at random.
+/// The paths that a run has measured, first random ones and then those of counting circuits.
 pub(super) struct Pilot {
     /// Good indices and others that had been measured before, by level.
     before: Vec<[u64; 2]>,
     bits: u32,
-    /// Number of paths drawn.
+    /// Number of paths drawn at random.
     pub(super) paths: u64,
 }
 
@@ -118,51 +128,117 @@ impl Pilot {
         (self.paths < most).then_some(FEWEST)
     }
 
-    fn colours(&self, device: &Device<'_>) -> Colours {
-        let drawn = device.measured_levels().zip(&self.before);
-        let levels = drawn.map(|((level, now), before)| {
-            let [good, others] = [0, 1].map(|which| now[which] - before[which]);
-            (level, good + others)
-        });
-        Colours::of_random(levels, self.bits)
+    /// The levels of the paths measured since, and their numbers of good indices and of others.
+    fn levels(&self, device: &Device<'_>) -> impl Iterator<Item = (u64, [u64; 2])> + Clone {
+        let levels = device.measured_levels().zip(&self.before);
+        levels.map(|((level, now), before)| (level, [0, 1].map(|which| now[which] - before[which])))
     }
 
-    /// True if the mean phase is expected to have less error than counting: less by `margin`.
+    /// The levels of paths drawn at random, and how often each was drawn: the run has not counted yet.
+    pub(super) fn random_levels(
+        &self,
+        device: &Device<'_>,
+    ) -> impl Iterator<Item = (u64, u64)> + Clone {
+        let levels = self.levels(device);
+        levels.map(|(level, [good, others])| (level, good + others))
+    }
+
+    /// The colours of all paths that were measured, and the mean that counting has found for them; `None` if no good
+    /// index was measured, or no other.
     ///
-    /// If no path was bright, counting has little error, and the spread of the mean phase is not known.
-    pub(super) fn favours(&self, device: &Device<'_>, margin: f64) -> bool {
-        let colours = self.colours(device);
+    /// In `posterior`, each shot counts half, so that other modes have weight: no shot of the mean-phase circuit could
+    /// find them again.
+    pub(super) fn after_counting(
+        &self,
+        device: &Device<'_>,
+        posterior: &Posterior,
+    ) -> Option<Start> {
+        let (mean, deviation) = posterior.tempered_amplitude();
+        let amplitude = posterior.mean_amplitude();
+        let any = |which: usize| self.levels(device).any(|(_, found)| found[which] > 0);
+        let is_mixed = any(0) && any(1) && amplitude > 0.0 && amplitude < 1.0;
+        is_mixed.then(|| Start {
+            colours: Colours::of_counted(self.levels(device), self.bits, amplitude),
+            mean,
+            deviation,
+        })
+    }
+
+    /// Draws more paths at random, if they are few beside the run's queries, of which `left` are left.
+    pub(super) fn draw(&self, goal: &Goal, device: &mut Device<'_>, left: &mut u64) -> Start {
+        let mut paths = ((PILOT * goal.queries as f64) as u64).max(FEWEST);
+        if goal.error.is_some() {
+            // A run that stops early may be much shorter than it is allowed to be.
+            paths = paths.min(ASKED);
+        }
+        let more = paths.saturating_sub(self.paths).min(*left);
+        device.paths(more);
+        *left -= more;
+        self.random(device)
+    }
+
+    /// The colours of the paths drawn at random, and their mean.
+    pub(super) fn random(&self, device: &Device<'_>) -> Start {
+        let colours = Colours::of_random(self.random_levels(device), self.bits);
         let mean = colours.mean();
-        let error = margin * ERROR * colours.at(mean).deviation;
-        mean > 0.0 && error * error < choice::FAR * choice::FAR * mean * (1.0 - mean)
+        let spread = colours.at(mean);
+        Start {
+            mean,
+            deviation: DOUBT * spread.deviation / colours.times().sqrt(),
+            colours,
+        }
     }
 }
 
-/// Continues a run that began at `start` and has `left` queries left, with the mean-phase circuit,
-/// after more paths of the pilot if it has few.
+/// The knowledge with which a run goes on with the mean-phase circuit.
+pub(super) struct Start {
+    colours: Colours,
+    mean: f64,
+    /// The mean's standard deviation.
+    deviation: f64,
+}
+
+impl Start {
+    /// True if the mean phase is expected to have less error than counting the whole: less by `margin`.
+    ///
+    /// If no path was bright, counting has little error, and the spread of the mean phase is not known.
+    pub(super) fn favours_mean_phase(&self, margin: f64) -> bool {
+        let mean = self.mean;
+        let error = margin * ERROR * self.colours.at(mean).deviation;
+        mean > 0.0 && error * error < FAR * FAR * mean * (1.0 - mean)
+    }
+
+    /// True if the mean is known well enough for one eigenphase to explain the shots.
+    pub(super) fn is_narrow(&self) -> bool {
+        self.deviation <= NEAR * self.colours.at(self.mean).deviation
+    }
+
+    /// The expected variance of the mean after `queries` queries, if no colour has been missed, and shots are read
+    /// rightly with probability `read`.
+    ///
+    /// The run finds those that matter: its shots measure paths far from the reference first.
+    pub(super) fn variance_after(&self, queries: f64, read: f64) -> f64 {
+        self.colours.at(self.mean).seen * (ERROR / (queries * read)).powi(2)
+    }
+}
+
+/// Continues a run that began at `begun` and has `left` queries left, with the mean-phase circuit.
 pub(super) fn estimate(
     goal: &Goal,
     device: &mut Device<'_>,
-    start: Usage,
-    pilot: &Pilot,
+    begun: Usage,
+    start: Start,
     mut left: u64,
 ) -> Result<Estimate, EstimatorError> {
-    let bits = pilot.bits;
-    let mut paths = ((PILOT * goal.queries as f64) as u64).max(FEWEST);
-    if goal.error.is_some() {
-        // A run that stops early may be much shorter than it is allowed to be.
-        paths = paths.min(ASKED);
-    }
-    let more = paths.saturating_sub(pilot.paths).min(left);
-    device.paths(more);
-    left -= more;
-    let read = read_rightly(goal, device, bits);
+    let bits = check(device)?;
+    let read = read_rightly(goal, device);
     let quantile = normal_quantile(0.5 * (1.0 - goal.confidence));
-    let mut colours = pilot.colours(device);
-    let mean = colours.mean();
-    let spread = colours.at(mean);
-    let mut grid = Grid::around(mean, DOUBT * spread.deviation / colours.sampled().sqrt());
+    let mut colours = start.colours;
+    let mut grid = Grid::around(start.mean, start.deviation);
     let (mut mean, mut deviation) = grid.moments();
+    // A posterior at a wrong mode begins anew, once: the colours' mean may be wrong, too, and a second posterior at the
+    // same place is right. Late in a run, too few queries are left.
+    let mut half = left / 2;
     while left >= 2 && deviation > KNOWN {
         let half_width = quantile * deviation;
         if goal.error.is_some_and(|error| half_width <= error) {
@@ -191,7 +267,24 @@ pub(super) fn estimate(
         colours.add(shot.level, &phases, k, intact(k));
         left -= k + 1;
         (mean, deviation) = grid.moments();
+        if left >= half
+            && let Some(anew) = elsewhere(&colours, mean, deviation)
+        {
+            half = u64::MAX;
+            grid = anew;
+            (mean, deviation) = grid.moments();
+        }
     }
     let end = |side: f64| (mean + side * quantile * deviation).clamp(0.0, 1.0);
-    Ok(device.estimate(start, mean, (end(-1.0), end(1.0)), goal.confidence))
+    Ok(device.estimate(begun, mean, (end(-1.0), end(1.0)), goal.confidence))
+}
+
+/// The posterior that the colours alone suggest, if that of the shots is far from their mean.
+fn elsewhere(colours: &Colours, mean: f64, deviation: f64) -> Option<Grid> {
+    let expected = colours.mean();
+    let error = colours.error_of_mean(expected);
+    let distance = (mean - expected).abs();
+    let is_far = distance > ELSEWHERE * error.hypot(deviation);
+    // The new posterior reaches the place of the old one.
+    is_far.then(|| Grid::around(expected, (DOUBT * error).max(distance / Grid::REACH)))
 }

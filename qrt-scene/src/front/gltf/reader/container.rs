@@ -1,11 +1,11 @@
 //! The parts of a glTF file: its JSON text and its binary data.
 
 use crate::scene::meshes::{FileError, FilePlace};
-use crate::syntax::MeshFile;
 use ::gltf::Document;
 use ::gltf::json::Root;
 use ::gltf::json::mesh::Semantic;
 use ::gltf::json::validation::{Checked, Validate as _};
+use qrt_syntax::MeshFile;
 use std::path::Path;
 
 /// Maximum number of bytes of a JSON text, base64 data included.

@@ -3,8 +3,8 @@
 use crate::front::meshes::surface;
 use crate::scene::meshes::{FileError, FileMaterial, FilePlace};
 use crate::scene::{Dielectric, Emitter, Lambertian, Material, Rgb};
-use crate::syntax::MeshFile;
 use ::gltf::material::AlphaMode;
+use qrt_syntax::MeshFile;
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -92,7 +92,7 @@ fn found(map: &Map, value: &str) -> Option<Bsdf> {
         &[value],
     )?;
     match problem.what {
-        crate::syntax::What::Bsdf(what) => Some(what),
+        qrt_syntax::What::Bsdf(what) => Some(what),
         other => panic!("{other:?}"),
     }
 }
