@@ -22,6 +22,8 @@ comparator: { bits: 1 }
 circuit: { uncompute: scoped }
 """)
 oracle = scene.oracle("r", (0, 0))
+# A quarter of the pixel is lit, and each path counts as in real numbers. With 4 fraction bits, S/N would be 0.375.
+assert oracle.amplitude == 0.25 and oracle.counts.differing == 0
 print(f"{oracle.qubits} qubits, {oracle.toffoli} Toffolis a query; S/N is {oracle.amplitude}")
 
 sampler = StatevectorSampler(default_shots=100, seed=5)

@@ -20,7 +20,7 @@ def phase_qubits(circuit):
 
 
 def aer(oracle, precision="double"):
-    """Qiskit Aer's state vector: exact probabilities."""
+    """Qiskit Aer's state vector: exact probabilities, whose sum is 1."""
     from qiskit import transpile
     from qiskit_aer import AerSimulator
 
@@ -29,7 +29,9 @@ def aer(oracle, precision="double"):
     circuit.save_probabilities(phase_qubits(circuit), label="phase")
     simulator = AerSimulator(method="statevector", precision=precision)
     result = simulator.run(transpile(circuit, simulator, optimization_level=0)).result()
-    return result.data()["phase"]
+    probabilities = result.data()["phase"]
+    # In single precision, rounding makes the state vector shorter: by 1.2e-6 with the gates of `slanted`.
+    return probabilities / probabilities.sum()
 
 
 def cirq(oracle):

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use qrt_runtime::memory::MemoryError;
 use qrt_runtime::render::RenderError;
-use qrt_scene::syntax::Report;
+use qrt_syntax::Report;
 
 /// Returns an exception of the class `class` of `qrt`.
 fn exception<'py, A>(py: Python<'py>, class: &str, arguments: A) -> PyErr
@@ -73,7 +73,7 @@ fn problems<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyTupl
 pub(crate) fn render(
     py: Python<'_>,
     error: RenderError,
-    report: impl FnOnce(Vec<qrt_scene::syntax::Problem>) -> Report,
+    report: impl FnOnce(Vec<qrt_syntax::Problem>) -> Report,
 ) -> PyErr {
     match error {
         RenderError::Oracle(error) => scene(py, &report(vec![error.problem()])),

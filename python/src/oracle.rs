@@ -15,7 +15,9 @@ use qrt_circuit::quantum::{CircuitPart, Conjunction, CountingCircuit, LogicalCou
 use qrt_core::inspect::{Inspection, OraclePixel};
 use qrt_core::oracle::{Oracle as PathOracle, OracleName, Oracles, check_budget};
 use qrt_counting::estimators::{CountingProblem, Noise, NoiseError};
+use qrt_lab::json;
 use qrt_lab::physical::{PhysicalError, PictureCounts};
+use qrt_lab::verify::pixel_counts;
 use qrt_runtime::memory::CircuitWork;
 use qrt_runtime::path_machines::{Defect, OracleMachine};
 use qrt_runtime::prepared::PrepareError;
@@ -43,6 +45,8 @@ pub(crate) struct Oracle {
     toffoli_depth: u64,
     /// Number of thresholds that a path's colour exceeds, by path index.
     thresholds: OnceLock<Vec<i64>>,
+    /// Its counts beside those of real numbers, as JSON; none if the paths are too many.
+    counts: OnceLock<Option<String>>,
 }
 
 impl Oracle {
@@ -79,6 +83,7 @@ impl Oracle {
             planned: prepared.plan().map(|plan| plan.channel_queries),
             traced: prepared.scene().clone(),
             thresholds: OnceLock::new(),
+            counts: OnceLock::new(),
         })
     }
 
@@ -264,6 +269,24 @@ impl Oracle {
         let array = unsafe { PyArray1::borrow_from_array(&view, this.clone().into_any()) };
         array.call_method1("setflags", (false,))?;
         Ok(array)
+    }
+
+    /// S by the oracle's program beside S of the same paths in real numbers, as JSON; none if the paths are
+    /// too many to compare.
+    fn _counts(&self, py: Python<'_>) -> PyResult<Option<&str>> {
+        if let Some(found) = self.counts.get() {
+            return Ok(found.as_deref());
+        }
+        let pixel = OraclePixel {
+            place: self.pixel,
+            seed: self.seed,
+        };
+        let counts = work::run(py, None, None, |_| {
+            pixel_counts(&self.traced, &self.compiled, pixel)
+        })?;
+        let counts = counts.map_err(|error| errors::job(py, error))?;
+        let counts = counts.map(|counts| json::pixel_counts(counts).to_string());
+        Ok(self.counts.get_or_init(|| counts).as_deref())
     }
 
     /// A device that runs the iterate on this oracle's indices: what it measures is drawn from the exact

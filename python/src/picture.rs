@@ -114,7 +114,7 @@ impl Picture {
     fn good<'py>(this: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyArray3<u64>>>> {
         let own = this.get();
         let [height, width] = own.shape();
-        let Some(good) = &own.rendered.good else {
+        let Some(good) = own.rendered.good() else {
             return Ok(None);
         };
         let view = ArrayView3::from_shape((height, width, 3), good.as_flattened());
@@ -127,7 +127,7 @@ impl Picture {
     fn widths<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let own = this.get();
         let [height, width] = own.shape();
-        let flat = own.rendered.widths.as_flattened();
+        let flat = own.rendered.counted.widths.as_flattened();
         shared(this, ArrayView3::from_shape((height, width, 3), flat))
     }
 
@@ -137,7 +137,7 @@ impl Picture {
     fn strata<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let own = this.get();
         let [height, width] = own.shape();
-        let flat = own.rendered.strata.as_flattened();
+        let flat = own.rendered.counted.strata.as_flattened();
         shared(this, ArrayView3::from_shape((height, width, 3), flat))
     }
 
@@ -145,7 +145,7 @@ impl Picture {
     #[getter]
     fn queries<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         let own = this.get();
-        let view = ArrayView1::from(own.rendered.queries.as_slice());
+        let view = ArrayView1::from(own.rendered.counted.queries.as_slice());
         // SAFETY: as in `shared`.
         let array = unsafe { PyArray1::borrow_from_array(&view, this.clone().into_any()) };
         array.call_method1("setflags", (false,))?;

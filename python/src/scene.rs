@@ -8,8 +8,8 @@ use qrt_runtime::plan;
 use qrt_runtime::prepared::PrepareError;
 use qrt_runtime::render::RenderError;
 use qrt_scene::front::{self, Files, Loaded};
-use qrt_scene::syntax::Report;
 use qrt_scene::valid::ValidScene;
+use qrt_syntax::Report;
 use std::fs;
 use std::path::{Path, PathBuf};
 

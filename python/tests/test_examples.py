@@ -26,6 +26,17 @@ def test_the_example_of_qiskit_runs(command, tmp_path):
     assert "both intervals hold S/N" in run(tmp_path, words)
 
 
+def test_one_pixel_in_numpy_prints_what_the_program_in_rust_prints(tmp_path):
+    page = (EXAMPLES.parents[1] / "book/src/one-pixel.md").read_text(encoding="utf-8")
+    # A test of the book compares this listing with the program in Rust.
+    expected = page.partition("```text\n")[2].partition("```")[0].splitlines()
+    # The program in numpy has no gates.
+    gates = [line for line in expected if " gates on " in line]
+    assert len(gates) == 1 and len(expected) == 10
+    printed = run(tmp_path, [sys.executable, EXAMPLES / "one_pixel.py"])
+    assert printed.splitlines() == [line for line in expected if line not in gates]
+
+
 @pytest.mark.parametrize(
     "name, needs, more",
     [

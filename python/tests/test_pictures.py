@@ -19,6 +19,8 @@ CASES = [
     ({}, []),
     ({"estimator": "exact", "seed": 2**64 - 1}, ["--estimator", "exact", "--seed", str(2**64 - 1)]),
     ({"model": "fixed", "crop": (2, 3, 5, 4)}, ["--model", "fixed", "--crop", "2,3,5,4"]),
+    ({"estimator": "auto"}, ["--estimator", "auto"]),
+    ({"estimator": "phase-mean"}, ["--estimator", "phase-mean"]),
     (
         {"colour": "one-run", "noise": "depolarising=0.001,readout=0.01"},
         ["--colour", "one-run", "--noise", "depolarising=0.001,readout=0.01"],

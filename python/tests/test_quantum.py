@@ -123,7 +123,7 @@ def test_the_command_counts_the_same_numbers(command, dot):
     assert abs(likeliest["theta"] - theta) <= 0.5 / 2**6
 
 
-# A lamp in front of some of the paths of one pixel: S/N is 3/8, on 17 qubits. Every tested power of the
+# A lamp in front of some of the paths of one pixel: S/N is 3/8, on 16 qubits. Every tested power of the
 # iterate changes that probability, so that no other operator passes the test.
 EDGE = """
 name: edge
@@ -131,9 +131,9 @@ camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
 film: { width: 1, height: 1 }
 materials: { lamp: { emitter: { radiance: [1, 0.5, 0.25] } } }
 geometry:
-  - quad: { vertices: [[-1, -1, 0], [-0.5, -1, 0], [-0.5, 1, 0], [-1, 1, 0]], material: lamp }
+  - quad: { vertices: [[-1, -1, 0], [-0.25, -1, 0], [-0.25, 1, 0], [-1, 1, 0]], material: lamp }
 sampling: { path_bits: 3, depths: [{ bits: [3, 3] }] }
-precision: { fraction: 4 }
+precision: { fraction: 5 }
 comparator: { bits: 1 }
 circuit: { uncompute: scoped }
 """
@@ -150,6 +150,7 @@ def test_qiskits_iterative_estimation_agrees(command):
     oracle = scene.oracle("r", (0, 0))
     lit = int((scene.paths((0, 0), model="fixed")[:, 0] > 0).sum())
     assert (lit, oracle.good, oracle.total) == (3, 6, 16)
+    assert (oracle.qubits, oracle.counts.differing) == (16, 0)
     problem = oracle.estimation_problem()
     sampler = StatevectorSampler(default_shots=100, seed=5)
     estimator = IterativeAmplitudeEstimation(0.03, 0.05, sampler=sampler)

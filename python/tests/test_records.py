@@ -1,11 +1,15 @@
 """Studies of a scene are the records that the command prints."""
 
+import inspect
 import json
 import pickle
+import re
 
 import pytest
 
 import qrt
+from conftest import ROOT
+from qrt import _records
 
 
 # A lamp whose slanted edge crosses the film, with an accuracy in place of its parameters.
@@ -18,6 +22,18 @@ geometry:
   - triangle: { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0]], material: lamp }
 sampling: { depths: [{ bits: [6, 6] }] }
 accuracy: { error: 0.2, confidence: 0.9 }
+"""
+
+
+EDGE = """
+name: edge
+camera: { orthographic: { eye: [0, 0, 2], target: [0, 0, 0], height: 2 } }
+film: { width: 1, height: 1 }
+materials: { lamp: { emitter: { radiance: [1, 0.5, 0.25] } } }
+geometry:
+  - quad: { vertices: [[-1, -1, 0], [-0.5, -1, 0], [-0.5, 1, 0], [-1, 1, 0]], material: lamp }
+sampling: { path_bits: 4, depths: [{ bits: [3, 3] }] }
+comparator: { bits: 1 }
 """
 
 
@@ -40,6 +56,31 @@ def test_inspect_is_what_the_command_prints(command, box):
         box.inspect(pixel=(13, 0))
     with pytest.raises(qrt.RequestError, match="r, g, b"):
         box.inspect("red")
+
+
+def test_an_oracle_compares_its_count_with_real_numbers(box, dot):
+    oracle = dot.oracle("r", (1, 0))
+    assert oracle.counts == dot.inspect("r", (1, 0)).counts
+    assert oracle.counts is not None and isinstance(oracle.counts, qrt.Record)
+    assert (oracle.counts.good, oracle.counts.total) == (oracle.good, oracle.total)
+    shifted = box.oracle("g", (3, 4), seed=7)
+    assert shifted.counts == box.inspect("g", (3, 4), seed=7).counts
+    assert shifted.counts.paths == 2**10
+    many = dot.with_({"sampling.path_bits": 17}).oracle("r", (1, 0))
+    assert many.counts is None and "real numbers" not in many._repr_html_()
+
+
+def test_too_few_fraction_bits_are_told_of():
+    # The lamp covers a quarter of the pixel; the centres of cells are at odd multiples of 1/16.
+    edge = {"precision": {"fraction": 4}, "sampling.path_bits": 4}
+    scene = qrt.parse(EDGE).with_(edge)
+    counts = scene.oracle("r", (0, 0)).counts
+    assert (counts.good, counts.good_in_real, counts.differing) == (12, 8, 2)
+    page = scene.oracle("r", (0, 0))._repr_html_()
+    assert "paths that count differently" in page and "precision.fraction with which none does" in page
+    finer = scene.with_({"precision.fraction": counts.agrees_at}).oracle("r", (0, 0))
+    assert (finer.counts.good, finer.counts.differing, finer.counts.agrees_at) == (8, 0, None)
+    assert "with which none does" not in finer._repr_html_()
 
 
 def test_the_front_is_what_the_command_prints(command, dot, tmp_path):
@@ -166,3 +207,28 @@ def test_a_record_is_a_dictionary_with_attributes_and_a_table():
     assert "<script>" not in qrt.Record(name="<script>")._repr_html_()
     many = qrt.count(1, 4, 8)._repr_html_()
     assert "20 of 129 rows" in many
+
+
+def documented():
+    """The examples of the module, and those of the book's table of studies."""
+    examples = re.findall(r"^ +>>> (.+)$", inspect.getsource(_records), re.MULTILINE)
+    assert len(examples) >= 10
+    page = (ROOT / "book/src/python.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(?:scene|qrt|oracle)\..+\| `(.+)` \|$", page, re.MULTILINE)
+    assert len(rows) >= 8
+    return [*examples, *rows]
+
+
+@pytest.mark.parametrize("example", documented())
+def test_a_documented_example_runs(example):
+    # Only a scene with an accuracy has a plan.
+    accurate = ".plan()" in example
+    scene = qrt.parse(ACCURATE) if accurate else qrt.load(ROOT / "scenes-yaml/small/edge.yaml")
+    names = {"qrt": qrt, "scene": scene, "oracle": None if accurate else scene.oracle(pixel=(1, 0))}
+    if example.startswith("assert "):
+        exec(example, names)
+        return
+    found = eval(example, names)
+    assert found is not None
+    # A comparison is an example of what holds.
+    assert found is not False

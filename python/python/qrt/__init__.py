@@ -28,7 +28,7 @@ from . import _display, _quantum, _records, distributed
 
 _display.extend(Picture, Oracle)
 _quantum.extend(Oracle)
-_records.extend(Scene)
+_records.extend(Scene, Oracle)
 
 __all__ = [
     "Device",

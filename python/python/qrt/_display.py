@@ -43,8 +43,12 @@ def _array(self: Any, dtype: Any = None, copy: bool | None = None) -> numpy.ndar
     return pixels.copy() if copy else pixels
 
 
+# Most path bits of an oracle whose counts a notebook shows.
+_COMPARED_BITS = 10
+
+
 def _oracle_html(self: Any) -> str:
-    """The cost of a call of the oracle, as a table."""
+    """The cost of a call of the oracle and its counts, as a table."""
     rows = [
         ("qubits", self.qubits),
         ("Toffoli", self.toffoli),
@@ -54,6 +58,16 @@ def _oracle_html(self: Any) -> str:
         ("X", self.x),
         ("indices N", self.total),
     ]
+    # To compare more paths would take seconds.
+    counts = self.counts if self.path_bits <= _COMPARED_BITS else None
+    if counts is not None:
+        rows += [
+            ("good indices S", counts.good),
+            ("S in real numbers", counts.good_in_real),
+            ("paths that count differently", counts.differing),
+        ]
+        if counts.agrees_at is not None:
+            rows.append(("precision.fraction with which none does", counts.agrees_at))
     cells = "".join(
         f'<tr><td style="text-align: left">{name}</td><td>{value:,}</td></tr>'
         for name, value in rows

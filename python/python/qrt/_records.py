@@ -231,8 +231,22 @@ def count(
     return _record(_qrt.count(good, total, phase_bits, window, list(outcomes), shots, seed))
 
 
-def extend(scene: Any) -> None:
-    """Gives the native class these as methods."""
+def _counts(self: _qrt.Oracle) -> Record | None:
+    """S by the oracle's program beside S of the same paths in real numbers: `inspect(pixel=...).counts`.
+
+    `differing` is the number of paths that count differently: for these the circuit has too few fraction bits.
+    `agrees_at` is the least number, of at most eight more, with which no path differs, or None. There is no record
+    if there are more than 2**16 paths, if tracing them takes too long, or for a channel that is not a colour.
+
+    >>> assert oracle.counts.differing == 0     # each path counts as in real numbers
+    """
+    text = self._counts()
+    return None if text is None else _record(text)
+
+
+def extend(scene: Any, oracle: Any) -> None:
+    """Gives the native classes these as methods, and `counts` as a property."""
+    oracle.counts = property(_counts)
     _with.__name__ = "with_"
     scene.with_ = _with
     for method in (_inspect, _pareto, _verify, _plan, _trade, _simulate, _count):
