@@ -9,9 +9,6 @@ import { join, relative } from "node:path";
 import { NARROW, SHEET, THEMES, WIDE, shut, tab, until, visit } from "./browser.mjs";
 
 const AXE = readFileSync(new URL("node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
-/** Folder of the pages of sources: a listing each in one template. Axe looks at every eighth, to keep the run short. */
-const SOURCES = "source/";
-const EVERY = 8;
 /** Tabs that are open at the same time. */
 const TABS = 2;
 /** A part of the other pages: where scripts do not run, they show the table of contents in a frame. */
@@ -102,24 +99,22 @@ async function paint(page, theme) {
   await until(page, () => [...document.querySelectorAll("link[rel=stylesheet]")].every((link) => link.disabled || link.sheet));
 }
 
-/** Looks at a page in every form; `turn` is its number. */
-async function look(page, address, name, turn, fail) {
+/** Looks at a page in every form. */
+async function look(page, address, name, fail) {
   await page.setViewport(NARROW);
   await visit(page, `${address}/${name}`);
-  for (const theme of [THEMES[1], THEMES[0]]) {
-    await paint(page, theme);
-    for (const misfit of await misfits(page)) fail(`${name}, ${theme} at ${NARROW.width}`, misfit);
-  }
-  await page.setViewport(WIDE);
-  // Wide pages have the table of contents beside them.
-  await page.evaluate(() => document.getElementById("mdbook-sidebar-toggle")?.click());
-  for (const theme of THEMES) {
-    const where = `${name}, ${theme} at ${WIDE.width}`;
-    await paint(page, theme);
-    for (const misfit of await misfits(page)) fail(where, misfit);
-    if (name === FRAMED || (name.startsWith(SOURCES) && turn % EVERY)) continue;
-    // A theme changes nothing but colours.
-    for (const barrier of await barriers(page, theme !== THEMES[0])) fail(where, barrier);
+  for (const size of [NARROW, WIDE]) {
+    await page.setViewport(size);
+    // Wide pages have the table of contents beside them.
+    if (size === WIDE) await page.evaluate(() => document.getElementById("mdbook-sidebar-toggle")?.click());
+    for (const theme of THEMES) {
+      const where = `${name}, ${theme} at ${size.width}`;
+      await paint(page, theme);
+      for (const misfit of await misfits(page)) fail(where, misfit);
+      if (name === FRAMED) continue;
+      // A theme changes nothing but colours.
+      for (const barrier of await barriers(page, theme !== THEMES[0])) fail(where, barrier);
+    }
   }
   // From a dark page, too, sheets are light.
   await page.emulateMediaType("print");
@@ -153,7 +148,7 @@ export async function everyPage(browser, address, folder, fail) {
       document.head.append(style);
     }));
     for (let name; (name = waiting.shift()); ) {
-      await look(page, address, name, waiting.length, fail);
+      await look(page, address, name, fail);
       if (await page.$("figure.qrt-interactive[data-figure]")) withFigures.push(name);
     }
     await shut(page);

@@ -270,9 +270,16 @@ export async function playground(browser, address, name) {
     console.log(`${where}: the first picture ${took.toFixed(0)} ms after the page was asked for`);
     if (took > FIRST_PICTURE) fail(where, `the first picture comes after ${took.toFixed(0)} ms`);
     // What an example says of itself stands above what is shown.
-    const named = (scene) => until(tried.page, (s) => document.querySelector(s).qrtEditor.scrollDOM.scrollTop > 0, [SELECTOR])
-      .then(() => tried.top(), () => "")
-      .then((line) => line.startsWith("name:") || fail(where, `${scene} is shown from "${line}" on`));
+    // The editor scrolls once more when it has measured its lines.
+    const named = async (scene) => {
+      const patience = Date.now() + 5_000;
+      let line = await tried.top();
+      while (!line.startsWith("name:") && Date.now() < patience) {
+        await new Promise((soon) => setTimeout(soon, 50));
+        line = await tried.top();
+      }
+      if (!line.startsWith("name:")) fail(where, `${scene} is shown from "${line}" on`);
+    };
     await named("the first example");
     const scenes = readdirSync(join(root, "scenes-yaml")).filter((file) => file.endsWith(".yaml"));
     const offered = await tried.page.evaluate((s) => [...document.querySelectorAll(`${s} [name=example] option`)].map((o) => o.value), SELECTOR);

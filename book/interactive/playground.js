@@ -521,7 +521,7 @@ export async function start(body, figure) {
       table.append(element("tr", {}, element("th", { scope: "row" }, words), element("td", {}, grouped(value)), element("td", { class: "qrt-room", "aria-hidden": "true" }, bar)));
     }
     const drawing = element("img", { alt: "The oracle's frame: generate ray, find the hit, sample, shade, and the same undone", src: URL.createObjectURL(new Blob([answer.svg], { type: "image/svg+xml" })) });
-    const frame = element("details", {}, element("summary", {}, "its drawing"), element("div", { class: "qrt-frame" }, drawing));
+    const frame = element("details", {}, element("summary", {}, "its drawing"), element("div", { class: "qrt-frame", tabindex: "0", role: "region", "aria-label": "The oracle's frame" }, drawing));
     cost.replaceChildren(title, list.box, table, frame);
   }
 

@@ -33,7 +33,15 @@ for (const math of document.querySelectorAll("main :is(th, a) math")) {
   if (!around.textContent.trim()) math.setAttribute("aria-label", math.textContent);
 }
 
-// Listings that scroll can be reached by keyboard, to be scrolled.
-for (const code of document.querySelectorAll("pre > code, .table-wrapper, .formula, .qrt-frame")) {
-  if (code.scrollWidth > code.clientWidth + 1) code.tabIndex = 0;
+// Parts that scroll can be reached by keyboard, to be scrolled. Whether a part scrolls depends on the width of
+// the window and on the fonts, which arrive after the page.
+{
+  const parts = [...document.querySelectorAll("pre > code, .table-wrapper, .formula")];
+  const update = (part) => {
+    if (part.scrollWidth > part.clientWidth + 1) part.tabIndex = 0;
+    else if (part !== document.activeElement) part.removeAttribute("tabindex");
+  };
+  const resized = new ResizeObserver((entries) => entries.forEach(({ target }) => update(target)));
+  for (const part of parts) resized.observe(part);
+  document.fonts.addEventListener("loadingdone", () => parts.forEach(update));
 }

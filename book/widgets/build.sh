@@ -39,7 +39,7 @@ is_new() {
   [ -z "$(
     find "$here" "$root/drawing" "$root/qrt-circuit" "$root/qrt-core" "$root/qrt-counting" \
       "$root/qrt-lab" "$root/qrt-machines" "$root/qrt-runtime" "$root/qrt-scene" \
-      "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
+      "$root/qrt-syntax" "$root/qrt-tracer" "$root/Cargo.toml" "$root/scenes-yaml" -type d -name target -prune -o \
       -type f -newer "$dist/qrt_${figures[-1]}.wasm" -print -quit
   )" ]
 }

@@ -3,11 +3,11 @@
 //! The code that checks a scene also reads, differentiates and checks the reader's own map.
 
 use qrt_lab::playground::Answer;
-use qrt_scene::expr::{Expr, Variables};
 use qrt_scene::sampling::{ProductLattice, SamplingError, cell_centre, maps};
-use qrt_scene::syntax::{Problem, Step};
 use qrt_scene::valid::bsdf;
 use qrt_scene::{Bsdf, Jacobian, Map};
+use qrt_syntax::expr::{Expr, Variables};
+use qrt_syntax::{Problem, Step};
 use std::fmt::Write;
 
 /// Most bits of each of the two coordinates that the figure offers.
