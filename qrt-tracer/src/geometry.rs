@@ -311,10 +311,10 @@ impl StageGeometry {
         }
     }
 
-    /// Sorts planes by main axis and lays their faces out in that order.
+    /// Sorts planes by main axis and tilt, and lays their faces out in that order.
     fn arrange(&mut self, on_plane: Vec<Vec<Face>>) {
         let mut order: Vec<usize> = (0..self.planes.len()).collect();
-        order.sort_by(|&a, &b| self.planes[a].cmp_place(&self.planes[b]));
+        order.sort_by(|&a, &b| self.planes[a].cmp_tilt(&self.planes[b]));
         let mut place = vec![0; order.len()];
         let mut planes = Vec::with_capacity(order.len());
         let mut on_plane: Vec<Option<Vec<Face>>> = on_plane.into_iter().map(Some).collect();

@@ -87,9 +87,18 @@ impl Plane {
         (self.offset - height).abs() <= ON_PLANE * (1.0 + height.abs())
     }
 
-    /// Compares planes by main axis, coefficients and offset.
-    pub(super) fn cmp_place(&self, other: &Self) -> Ordering {
-        let key = |plane: &Self| [plane.form[0], plane.form[1], plane.offset];
+    /// Compares planes by main axis, tilt and offset.
+    ///
+    /// Of each axis, planes with a positive `a + b` come first, and those with a negative one last; the
+    /// steepest come first among each. The order decides between planes that a ray meets at one point. It
+    /// also decides how long values live in a circuit that uncomputes parts early: of the orders that were
+    /// tried, this one has the smallest circuits of the Cornell box.
+    pub(super) fn cmp_tilt(&self, other: &Self) -> Ordering {
+        let key = |plane: &Self| {
+            let [a, b] = plane.form;
+            let side = f64::from(u8::from(a + b < 0.0)) - f64::from(u8::from(a + b > 0.0));
+            [side, -(a.abs() + b.abs()), a, b, plane.offset]
+        };
         let pairs = key(self).into_iter().zip(key(other));
         // -0 and 0 are one coefficient.
         let by_numbers = pairs.map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
