@@ -1,6 +1,6 @@
-//! Seconds that qrt and Mitsuba 3 take for pictures of equal error.
+//! Seconds that qrt and Mitsuba 3 take for pictures of equal error, and for equally many paths.
 //!
-//! `cargo bench --bench equal_error` renders the Cornell box and a mesh, three rays a path, with
+//! `cargo bench --bench equal_error -- errors` renders the Cornell box and a mesh, three rays a path, with
 //! qrt's real model and with Mitsuba's `path` integrator under each of its samplers, from few paths
 //! a pixel to many. Both sample lamps at every surface. The truth is the mean of 65,536 samples a
 //! pixel of Mitsuba's, rendered once and kept below `target`. An error is the root mean square over
@@ -12,6 +12,9 @@
 //! It prints the measurements and the seconds to errors of 3 % and 1 %, between the numbers of
 //! paths on logarithmic axes, and fails where a promise is broken: qrt's time relative to that of
 //! Mitsuba's best sampler, and relative to independent samples.
+//!
+//! `-- cover` counts the paths of `weekend.yaml` that each traces in a second of the processor: Mitsuba's
+//! scalar and LLVM variants, with as many rays a path at most.
 //!
 //! `benches/peers/path_tracing.py` installs Mitsuba, where there is a `python3` that can. First the
 //! bench compares Mitsuba's pictures of exported scenes with those in `tests/references`. Without
@@ -53,11 +56,14 @@ const PATH_BITS: std::ops::RangeInclusive<u32> = 4..=14;
 /// Paths of a pixel, over all seeds, that suffice to measure an error.
 const ENOUGH: u64 = 8192;
 
+/// Settings of the cover: enough paths for the compilation of Mitsuba's code to take little of the time.
+const COVER: [&str; 3] = ["film.width=400", "film.height=225", "sampling.path_bits=6"];
+
 fn main() -> ExitCode {
-    common::run_alone(run)
+    common::run(&[("errors", errors), ("cover", cover)])
 }
 
-fn run(arguments: &Arguments, promises: &mut Promises) {
+fn errors(arguments: &Arguments, promises: &mut Promises) {
     let (errors, seeds) = if arguments.flag("--quick") {
         (&ERRORS[..1], 2)
     } else {
@@ -65,6 +71,38 @@ fn run(arguments: &Arguments, promises: &mut Promises) {
     };
     if let Err(why) = compare(errors, seeds, promises) {
         promises.judge(&format!("Mitsuba is measured: {why}"), false);
+    }
+}
+
+/// Judges qrt's paths a second on the cover, relative to those of Mitsuba's variants.
+fn cover(_: &Arguments, promises: &mut Promises) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/weekend.yaml");
+    let sets = COVER.map(str::to_owned);
+    let scene = front::load(&path, &sets).unwrap_or_else(|report| panic!("{report}"));
+    let real = Real::new(&scene.valid, 1).expect("a valid scene's sequence exists");
+    let theirs = match mitsuba::speeds(&path, &sets, real.paths()) {
+        Ok(speeds) => speeds,
+        Err(why) => return promises.judge(&format!("Mitsuba is measured: {why}"), false),
+    };
+    let film = scene.valid.scene().film;
+    let seconds = (0..3).map(|_| {
+        let started = processor::seconds();
+        picture(&real, film.width, film.height);
+        processor::seconds() - started
+    });
+    let paths = f64::from(film.width * film.height) * real.paths() as f64;
+    let ours = paths / seconds.fold(f64::INFINITY, f64::min);
+    println!("qrt: {:.2} million paths a second", ours / 1e6);
+    for (variant, speed) in theirs {
+        let least = if variant.starts_with("llvm") {
+            0.5
+        } else {
+            1.0
+        };
+        let ratio = ours / speed;
+        println!("Mitsuba, {variant}: {:.2} million", speed / 1e6);
+        let what = format!("the cover: {ratio:.2} of the paths of {variant}, at least {least}");
+        promises.judge(&what, ratio >= least);
     }
 }
 

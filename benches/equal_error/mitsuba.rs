@@ -137,6 +137,21 @@ pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<M
     })
 }
 
+/// Paths a second of the processor that each of Mitsuba's variants traces, by name.
+pub(crate) fn speeds(
+    scene: &Path,
+    sets: &[String],
+    samples: u64,
+) -> Result<Vec<(String, f64)>, String> {
+    let scene = exported(scene, sets)?;
+    let found = run(&["--speed".as_ref(), samples.to_string().as_ref(), &scene])?;
+    let speeds = found.as_object().ok_or("no speeds")?;
+    let speeds = speeds.iter();
+    let speed =
+        |(name, speed): (&String, &Value)| speed.as_f64().map(|speed| (name.clone(), speed));
+    Ok(speeds.filter_map(speed).collect())
+}
+
 /// Writes a scene for Mitsuba, and returns the file.
 fn exported(scene: &Path, sets: &[String]) -> Result<PathBuf, String> {
     let loaded = front::load(scene, sets).map_err(|report| report.to_string())?;

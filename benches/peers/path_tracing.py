@@ -3,6 +3,7 @@
 
     path_tracing.py --venv FOLDER --cache FOLDER --errors 0.03,0.01 --seeds 8 SCENE.xml
     path_tracing.py --venv FOLDER --reference tests/references/cornell_D3_16 SCENE.xml
+    path_tracing.py --venv FOLDER --speed 64 SCENE.xml
 
 The scenes are what `qrt export --format mitsuba` writes. The first renders with `path`, which samples lights, under each of Mitsuba's samplers, from few
 samples a pixel to as many as bring the error below the least of `--errors`. It prints one line of JSON:
@@ -20,6 +21,9 @@ are rendered under fewer seeds than `--seeds`, at least two. The truth is kept i
 
 The second compares Mitsuba's picture of a scene of the reference data, as qrt exports it, with the
 data: it prints the root mean square of their difference in standard errors, which is about 1.
+
+The third renders with 64 independent samples a pixel, and prints the paths that each variant traces in a
+second of the processor: the most of three renders.
 
 Mitsuba is installed from PyPI, at the version in path_tracing.txt, into a virtual environment of its
 own, once. Its fast variant needs LLVM as a shared library: on Linux that is installed beside it;
@@ -168,6 +172,14 @@ def compare(mi, reference, scene):
     return {"standard_errors": math.sqrt(((ours - theirs) ** 2 / squares).mean())}
 
 
+def speed(mi, samples, scene):
+    """Returns the paths that are traced in a second of the processor."""
+    renderer = Renderer(mi, scene)
+    renders = [renderer.render("independent", samples, seed) for seed in range(3)]
+    height, width, _ = renders[0][0].shape
+    return width * height * samples / min(seconds for _, seconds in renders)
+
+
 def load_mitsuba(variant):
     """Mitsuba in a variant, or the exit status that says that it isn't here."""
     libraries = sorted(pathlib.Path(sys.prefix).glob("lib/libLLVM.so.*"))
@@ -197,6 +209,7 @@ def main():
     parser.add_argument("--errors", default="0.03,0.01")
     parser.add_argument("--seeds", type=int, default=8)
     parser.add_argument("--reference")
+    parser.add_argument("--speed", type=int)
     parser.add_argument("scene")
     arguments = parser.parse_args()
     inside(arguments.venv, "path_tracing.txt")
@@ -204,11 +217,22 @@ def main():
         mi, said = load_mitsuba(arguments.variant)
         if arguments.reference:
             found = compare(mi, arguments.reference, arguments.scene)
+        elif arguments.speed:
+            said, found = {}, {said["variant"]: speed(mi, arguments.speed, arguments.scene)}
         else:
             found = measure(mi, arguments)
         print(json.dumps(said | found))
         return
     # An LLVM that does not suit Mitsuba ends its process, so each variant runs in a process of its own.
+    if arguments.speed:
+        speeds = {}
+        for variant in VARIANTS:
+            command = [sys.executable, *sys.argv, "--variant", variant]
+            done = subprocess.run(command, stdout=subprocess.PIPE)
+            if done.returncode == 0:
+                speeds |= json.loads(done.stdout)
+        print(json.dumps(speeds))
+        return
     for variant in VARIANTS:
         command = [sys.executable, *sys.argv, "--variant", variant]
         status = subprocess.run(command).returncode
