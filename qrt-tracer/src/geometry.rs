@@ -62,8 +62,38 @@ impl Face {
     }
 }
 
-/// Faces of one plane, each once: a second copy of a face is hidden by the first.
-fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
+/// The planes so far, by the bucket of their coefficients and offset.
+#[derive(Default)]
+struct KnownPlanes {
+    /// The first plane of each bucket.
+    first: HashMap<[i64; 3], u32>,
+    /// For each plane, the next one of its bucket, or [`NO_PLANE`].
+    next: Vec<u32>,
+}
+
+impl KnownPlanes {
+    /// The planes of the bucket `key`, the oldest first.
+    fn in_bucket(&self, key: &[i64; 3]) -> impl Iterator<Item = u32> + '_ {
+        let next = |plane: &u32| self.next[*plane as usize];
+        let next = move |plane: &u32| Some(next(plane)).filter(|plane| *plane != NO_PLANE);
+        std::iter::successors(self.first.get(key).copied(), next)
+    }
+
+    /// Adds plane number `plane`, the number of planes so far, to the bucket `key`.
+    fn add(&mut self, key: [i64; 3], plane: u32) {
+        match self.in_bucket(&key).last() {
+            Some(last) => self.next[last as usize] = plane,
+            None => _ = self.first.insert(key, plane),
+        }
+        self.next.push(NO_PLANE);
+    }
+}
+
+/// Leaves out all copies of a face but the first, which hides them. All `faces` are on one plane.
+fn leave_out_copies(faces: &mut Vec<Face>) {
+    if faces.len() < 2 {
+        return;
+    }
     fn numbers(face: &Face) -> impl Iterator<Item = f64> {
         let tests = face.edge_tests.iter();
         let tests = tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high]);
@@ -81,7 +111,6 @@ fn without_copies(mut faces: Vec<Face>) -> Vec<Face> {
     let copies = order.windows(2).filter(is_copy).map(|pair| pair[1]);
     let copies: HashSet<u32> = copies.map(|copy| faces[copy].label).collect();
     faces.retain(|face| !copies.contains(&face.label));
-    faces
 }
 
 /// All polygons of a scene, in stage units.
@@ -151,8 +180,8 @@ impl StageGeometry {
             sun: None,
             balls: Vec::with_capacity(balls.len()),
         };
-        let mut on_plane: Vec<Vec<Face>> = Vec::new();
-        let mut known = HashMap::new();
+        let mut faces = Vec::with_capacity(polygons.len());
+        let mut known = KnownPlanes::default();
         for (label, polygon) in polygons.iter().enumerate() {
             let corners: Vec<DVec3> = polygon.vertices[..polygon.corners as usize]
                 .iter()
@@ -167,27 +196,28 @@ impl StageGeometry {
                 let edge_tests = edge_tests(&corners, plane.axis, frame.centre, tolerance);
                 (edge_tests, None)
             };
-            let plane = geometry.find_plane(plane, &mut known, &mut on_plane);
+            let plane = geometry.find_plane(plane, &mut known);
             geometry.frames.push(frame);
             geometry.plane_of.push(plane);
             geometry.corners.push(corners);
-            on_plane[plane as usize].push(Face {
+            faces.push(Some(Face {
                 label: label as u32,
                 emits: emits(polygon.surface),
                 hides_emitter: false,
                 covers: None,
                 edge_tests,
                 disc,
-            });
+            }));
         }
-        geometry.place_balls(balls, emits, on_plane.len());
-        geometry.arrange(on_plane);
+        drop(known);
+        geometry.place_balls(balls, emits);
+        geometry.arrange(faces);
         geometry
     }
 
-    /// Appends the spheres, after polygons on this number of `planes`.
-    fn place_balls(&mut self, balls: &[Ball], emits: impl Fn(u32) -> bool, planes: usize) {
-        let polygons = self.corners.len();
+    /// Appends the spheres, after the planes of all polygons.
+    fn place_balls(&mut self, balls: &[Ball], emits: impl Fn(u32) -> bool) {
+        let [polygons, planes] = [self.corners.len(), self.planes.len()];
         for (place, ball) in balls.iter().enumerate() {
             let number = (planes + place) as u32;
             self.plane_of.push(number);
@@ -229,46 +259,34 @@ impl StageGeometry {
         &self.faces[self.planes[plane].faces.clone()]
     }
 
-    fn find_plane(
-        &mut self,
-        new: Plane,
-        known: &mut HashMap<[i64; 4], Vec<u32>>,
-        on_plane: &mut Vec<Vec<Face>>,
-    ) -> u32 {
+    /// Returns the number of the plane `new`, which is added if it is not known.
+    fn find_plane(&mut self, new: Plane, known: &mut KnownPlanes) -> u32 {
         // Buckets are so narrow that few distinct planes share one. A plane near a bucket's edge is also
         // searched in the bucket beyond the edge.
         let width = SAME_PLANE * 4.0;
         let values = |plane: &Plane| [plane.form[0], plane.form[1], plane.offset];
-        let key = |shift: [f64; 3]| {
-            let bucket = |k: usize| ((values(&new)[k] + shift[k]) / width).floor() as i64;
-            [new.axis as i64, bucket(0), bucket(1), bucket(2)]
-        };
+        let bucket = |k: usize, shift: f64| ((values(&new)[k] + shift) / width).floor() as i64;
+        let sides = [0, 1, 2].map(|k| [-SAME_PLANE, SAME_PLANE].map(|shift| bucket(k, shift)));
+        let key = |[a, b, c]: [i64; 3]| [new.axis as i64 + 3 * a, b, c];
         let same = |plane: &Plane| {
             let pairs = values(plane).into_iter().zip(values(&new));
             plane.axis == new.axis && pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME_PLANE)
         };
         for code in 0..8_usize {
-            let side = |k: usize| {
-                if code >> k & 1 == 0 {
-                    -SAME_PLANE
-                } else {
-                    SAME_PLANE
-                }
-            };
-            let planes = known.get(&key([side(0), side(1), side(2)]));
-            let found = planes.and_then(|planes| {
-                planes
-                    .iter()
-                    .find(|&&plane| same(&self.planes[plane as usize]))
-            });
-            if let Some(&plane) = found {
+            let is_far = [0, 1, 2].map(|k| code >> k & 1);
+            // A side that is in the bucket of the other one has been searched with it.
+            if (0..3).any(|k| is_far[k] == 1 && sides[k][0] == sides[k][1]) {
+                continue;
+            }
+            let key = key([0, 1, 2].map(|k| sides[k][is_far[k]]));
+            let mut found = known.in_bucket(&key);
+            if let Some(plane) = found.find(|&n| same(&self.planes[n as usize])) {
                 return plane;
             }
         }
         let plane = self.planes.len() as u32;
-        known.entry(key([0.0; 3])).or_default().push(plane);
+        known.add(key([0, 1, 2].map(|k| bucket(k, 0.0))), plane);
         self.planes.push(new);
-        on_plane.push(Vec::new());
         plane
     }
 
@@ -311,19 +329,46 @@ impl StageGeometry {
         }
     }
 
-    /// Sorts planes by main axis and tilt, and lays their faces out in that order.
-    fn arrange(&mut self, on_plane: Vec<Vec<Face>>) {
+    /// The labels of all polygons by plane, in the order of the scene, and the end of each plane's labels.
+    fn labels_by_plane(&self) -> (Vec<u32>, Vec<usize>) {
+        let polygons = &self.plane_of[..self.corners.len()];
+        let mut ends = vec![0; self.planes.len() + 1];
+        for &plane in polygons {
+            ends[plane as usize + 1] += 1;
+        }
+        for plane in 1..ends.len() {
+            ends[plane] += ends[plane - 1];
+        }
+        let mut labels = vec![0; polygons.len()];
+        for (label, &plane) in (0..).zip(polygons) {
+            let next = &mut ends[plane as usize];
+            labels[*next] = label;
+            *next += 1;
+        }
+        // Each start has become an end.
+        ends.pop();
+        (labels, ends)
+    }
+
+    /// Sorts planes by main axis and tilt, and lays their faces out in that order. `faces` has the face of each
+    /// polygon.
+    fn arrange(&mut self, mut faces: Vec<Option<Face>>) {
         let mut order: Vec<usize> = (0..self.planes.len()).collect();
         order.sort_by(|&a, &b| self.planes[a].cmp_tilt(&self.planes[b]));
         let mut place = vec![0; order.len()];
         let mut planes = Vec::with_capacity(order.len());
-        let mut on_plane: Vec<Option<Vec<Face>>> = on_plane.into_iter().map(Some).collect();
+        let (labels, ends) = self.labels_by_plane();
+        self.faces.reserve_exact(faces.len());
+        let mut own = Vec::new();
         for (new, &old) in order.iter().enumerate() {
             place[old] = new as u32;
             let start = self.faces.len();
-            let mut faces = without_copies(on_plane[old].take().unwrap_or_default());
-            self.cover(self.planes[old].axis, &mut faces);
-            self.faces.append(&mut faces);
+            let first = old.checked_sub(1).map_or(0, |before| ends[before]);
+            let labels = labels[first..ends[old]].iter();
+            own.extend(labels.filter_map(|&label| faces[label as usize].take()));
+            leave_out_copies(&mut own);
+            self.cover(self.planes[old].axis, &mut own);
+            self.faces.append(&mut own);
             let faces = start..self.faces.len();
             let emitting = self.faces[start..].iter().filter(|face| face.emits);
             let emitters = self.emitters..self.emitters + emitting.count() as u32;
