@@ -6,7 +6,8 @@
 //! surfaces other than dielectrics act on both sides; outside of glass there is vacuum, not air; a
 //! pixel is the mean over its square; the field of view is vertical. A sun becomes a disc that is so far away that
 //! directions to it differ by less than 1e-5. Its radiance includes that of the sky behind its centre: before a
-//! gradient, that of a wide sun is wrong by what the sky differs over the disc.
+//! gradient, that of a wide sun is wrong by what the sky differs over the disc. A smooth metal has the least
+//! roughness of Mitsuba's `principled`, alpha = 0.001, and is as good as smooth at the size of a pixel.
 //!
 //! On smooth meshes the expected value differs at outlines, where the interpolated normal is behind
 //! the viewer or a direction is on different sides of the face and of its normal. Mitsuba has no rule
@@ -78,7 +79,7 @@ const CHECKER: &str = "checker";
 pub struct NoCounterpart {
     /// Name of the material in the scene.
     pub name: String,
-    /// `metal`, `phong` or `bsdf`; `checker` for one on a sphere, a disc or a slanted face.
+    /// `phong` or `bsdf`; `checker` for one on a sphere, a disc or a slanted face.
     pub kind: &'static str,
 }
 
@@ -108,7 +109,7 @@ impl NoCounterpart {
 /// `scalar_rgb` or `llvm_ad_rgb`. The mesh files are called `STEM.N.MATERIAL.ply`.
 ///
 /// # Errors
-/// If a face has a material that Mitsuba lacks: a `metal`, a `phong` with a specular part, a
+/// If a face has a material that Mitsuba lacks: a `phong` with a specular part, a
 /// user-defined `bsdf`, or a checker on a sphere, on a disc, or where the face is not parallel to two of the
 /// scene's axes.
 pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart> {
@@ -480,7 +481,7 @@ fn material(surface: &Surface, is_coloured: bool) -> Result<String, NoCounterpar
             reflected("reflectance", albedo)
         )
     };
-    let metal = |kind: &str, more: &str, reflectance: Reflectance| {
+    let conductor = |kind: &str, more: &str, reflectance: Reflectance| {
         format!(
             r#"<bsdf type="{kind}"><string name="material" value="none"/>{more}{}</bsdf>"#,
             reflected("specular_reflectance", reflectance)
@@ -494,13 +495,13 @@ fn material(surface: &Surface, is_coloured: bool) -> Result<String, NoCounterpar
         Scatter::Phong(phong) if phong.specular == [0.0; 3] => {
             two_sided(diffuse(phong.diffuse.into()))
         }
-        Scatter::Mirror(mirror) => two_sided(metal("conductor", "", mirror.reflectance)),
+        Scatter::Mirror(mirror) => two_sided(conductor("conductor", "", mirror.reflectance)),
         Scatter::Ggx(ggx) => {
             let more = format!(
                 r#"<string name="distribution" value="ggx"/><float name="alpha" value="{}"/>"#,
                 Number(ggx.alpha)
             );
-            two_sided(metal("roughconductor", &more, ggx.reflectance))
+            two_sided(conductor("roughconductor", &more, ggx.reflectance))
         }
         Scatter::Dielectric(glass) => {
             let through = match glass.transmittance {
@@ -512,7 +513,13 @@ fn material(surface: &Surface, is_coloured: bool) -> Result<String, NoCounterpar
                 Number(glass.ior)
             )
         }
-        Scatter::Metal(_) => return Err(none("metal")),
+        // Mitsuba's conductors have the exact Fresnel formula; its `principled` metal has Schlick's. The
+        // alpha of `principled` is the square of its roughness.
+        Scatter::Metal(metal) => two_sided(format!(
+            r#"<bsdf type="principled">{}<float name="metallic" value="1"/><float name="roughness" value="{}"/></bsdf>"#,
+            reflected("base_color", metal.reflectance),
+            Number(metal.alpha.sqrt())
+        )),
         Scatter::Phong(_) => return Err(none("phong")),
         Scatter::Custom(_) => return Err(none("bsdf")),
     };

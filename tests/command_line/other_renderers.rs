@@ -458,6 +458,18 @@ geometry:
     assert!(!lamp.windows(9).any(|part| part == b"double r\n"));
 }
 
+/// The alpha of Mitsuba's metal is the square of its roughness.
+#[test]
+fn metal_is_mitsubas_principled_metal() {
+    let metal = "glass: { metal: { reflectance: [0.9, 0.7, 0.2], alpha: 0.25 } }";
+    let scene = WALLS.replace("glass: { dielectric: { ior: 1.5 } }", metal);
+    let folder = Folder::with("s.yaml", &scene);
+    folder.works(&["export", "s.yaml", "--format", "mitsuba"]);
+    let text = fs::read_to_string(folder.path("s.xml")).unwrap();
+    let expected = r#"<bsdf type="principled"><rgb name="base_color" value="0.9, 0.7, 0.2"/><float name="metallic" value="1"/><float name="roughness" value="0.5"/></bsdf>"#;
+    assert!(text.contains(expected), "{text}");
+}
+
 #[test]
 fn what_mitsuba_cannot_show_is_refused_where_it_is_written() {
     let scene = |material: &str| {

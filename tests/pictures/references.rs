@@ -235,6 +235,19 @@ fn a_terrace_agrees() {
     }
 }
 
+/// Smooth and rough metal on spheres, discs, boxes and tiles, by a sky and a sun, and by lamps in a room.
+#[test]
+fn metal_agrees() {
+    for name in ["metals", "workshop"] {
+        for depth in 1..=6 {
+            for lights in ["none", "mis"] {
+                let asking = independent::asking(depth, 10, lights);
+                agrees_at(name, depth, 10, 0.02, &asking);
+            }
+        }
+    }
+}
+
 /// Smooth meshes of glass, metal and clay in a room. Its file and materials have the form that Blender's
 /// exporter writes.
 #[test]

@@ -109,8 +109,8 @@ const BYTES_A_GATE: u64 = 28;
 /// Hadamards.
 ///
 /// For Mitsuba, the whole scene is written: its `path` integrator renders the picture that qrt
-/// renders, so that anyone can check one by the other. A `metal`, a `phong` that shines, and a `bsdf`
-/// of one's own have no counterpart there.
+/// renders, so that anyone can check one by the other. A `phong` that shines and a `bsdf` of one's own
+/// have no counterpart there.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Examples:
