@@ -23,6 +23,7 @@ mod pictures {
     mod patterns;
     mod physics;
     mod references;
+    mod same_bytes_same_counts;
     mod same_picture;
     mod searched_pictures;
     mod smooth;
