@@ -224,7 +224,7 @@ pub fn export(scene: &ValidScene, stem: &str) -> Result<Exported, NoCounterpart>
     Ok(Exported { text, meshes })
 }
 
-/// Rows of the picture of a sky: enough for bilinear interpolation to be off by less than 1e-5 of the
+/// Rows of the picture of a sky: enough for bilinear interpolation to be off by less than 1e-6 of the
 /// greatest radiance.
 const SKY_ROWS: usize = 1024;
 
@@ -240,7 +240,8 @@ fn emitter(sky: &Sky, stem: &str, files: &mut Vec<MeshFile>) -> String {
     // A Portable Float Map: rows from the bottom to the top.
     let mut bytes = format!("PF\n4 {SKY_ROWS}\n-1.0\n").into_bytes();
     for row in (0..SKY_ROWS).rev() {
-        let height = (PI * (row as f64 + 0.5) / SKY_ROWS as f64).cos().max(0.0);
+        // Mitsuba's first and last rows are the poles.
+        let height = (PI * row as f64 / (SKY_ROWS - 1) as f64).cos().max(0.0);
         for _ in 0..4 {
             for (horizon, zenith) in horizon.into_iter().zip(zenith) {
                 let value = horizon + height * (zenith - horizon);

@@ -314,6 +314,20 @@ fn spheres_lenses_skies_and_tiles_are_mitsubas_own() {
     assert_eq!(colours, ["0.25, 0.25, 0.25", "0.75, 0.75, 0.75"]);
 }
 
+/// The first and the last row of Mitsuba's picture of a sky are the poles.
+#[test]
+fn a_gradient_reaches_its_zenith_in_mitsubas_sky() {
+    let sky = "sky: { horizon: [1, 2, 3], zenith: [4, 5, 6] }";
+    let scene = BALL.replace("sky: { radiance: [1, 2, 3] }", sky);
+    assert!(scene.contains(sky));
+    let folder = Folder::with("ball.yaml", &scene);
+    folder.works(&["export", "ball.yaml", "--format", "mitsuba"]);
+    let bytes = folder.read("ball.sky.pfm");
+    let (_, last) = bytes.split_at(bytes.len() - 12);
+    let part = |k: usize| f32::from_le_bytes(last[k..k + 4].try_into().unwrap());
+    assert_eq!([part(0), part(4), part(8)], [4.0, 5.0, 6.0]);
+}
+
 /// A sun is a far disc that faces the scene. It has the sun's angle, the radiance of the sun and of the sky behind it,
 /// and is within the far end of the camera's view.
 #[test]
