@@ -14,7 +14,7 @@
 //! Mitsuba's best sampler, and relative to independent samples.
 //!
 //! `-- cover` counts the paths of `weekend.yaml` that each traces in a second of the processor: Mitsuba's
-//! scalar and LLVM variants, with as many rays a path at most.
+//! scalar and LLVM variants, and paths of the same number of rays.
 //!
 //! `benches/peers/path_tracing.py` installs Mitsuba, where there is a `python3` that can. First the
 //! bench compares Mitsuba's pictures of exported scenes with those in `tests/references`. Without
