@@ -89,15 +89,17 @@ impl KnownPlanes {
     }
 }
 
+/// The numbers of a face's tests.
+fn numbers(face: &Face) -> impl Iterator<Item = f64> {
+    let tests = face.edge_tests.iter();
+    let tests = tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high]);
+    tests.chain(face.disc.iter().map(|disc| disc.square))
+}
+
 /// Leaves out all copies of a face but the first, which hides them. All `faces` are on one plane.
 fn leave_out_copies(faces: &mut Vec<Face>) {
     if faces.len() < 2 {
         return;
-    }
-    fn numbers(face: &Face) -> impl Iterator<Item = f64> {
-        let tests = face.edge_tests.iter();
-        let tests = tests.flat_map(|test| [test.form[0], test.form[1], test.low, test.high]);
-        tests.chain(face.disc.iter().map(|disc| disc.square))
     }
     let compare = |a: &Face, b: &Face| {
         let by_numbers = numbers(a).partial_cmp(numbers(b));
@@ -116,7 +118,7 @@ fn leave_out_copies(faces: &mut Vec<Face>) {
 /// All polygons of a scene, in stage units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageGeometry {
-    /// Distinct planes by main axis, then by their coefficients and offset: an order that does not
+    /// Distinct planes by main axis, then by tilt and offset: an order that does not
     /// depend on that of the scene's list.
     pub planes: Vec<Plane>,
     /// The planes with main axis x, y, z.

@@ -154,9 +154,9 @@ fn by_nearest_point<'b>(
     let [low, high, zero] = [-1.0, 1.0, 0.0].map(|end| cx.real(end / up));
     let mut meets = cx.less(zero, along);
     let mut left = cx.real((ball.radius * up).powi(2));
-    for k in 0..3 {
-        let moved = cx.mul(along, ray.direction[k]);
-        let apart = cx.sub(moved, to[k]);
+    for (to, direction) in to.into_iter().zip(ray.direction) {
+        let moved = cx.mul(along, direction);
+        let apart = cx.sub(moved, to);
         for (small, great) in [(low, apart), (apart, high)] {
             let within = cx.less(small, great);
             meets = cx.and(meets, within);
