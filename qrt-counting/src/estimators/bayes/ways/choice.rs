@@ -12,8 +12,13 @@ const FEWEST: u64 = 24;
 const LATEST: f64 = 1.0 / 6.0;
 /// The factor by which another way must reduce the error of counting the whole.
 pub(super) const WORTH: f64 = 1.15;
-/// The factor by which the mean phase must have less variance than strata.
-const MARGIN: f64 = 1.4;
+/// The factor of the mean phase's expected variance by which strata must beat it, so that a run does not take it after
+/// its first paths.
+const EARLY: f64 = 1.4;
+/// The factor by which the mean phase must have less expected variance than strata later, from the paths that
+/// counting has measured: in dark pixels, whose few bright paths the mean phase has yet to find, it has up to 1.6 times
+/// the expected error, and strata have the expected one.
+const LATE: f64 = 2.25;
 /// Number of queries that a stratum's posterior takes to find the right section of its angles.
 const SEARCH: f64 = 4.0;
 /// Queries squared times standard deviation of an amplitude of 0 or 1; measured.
@@ -103,16 +108,16 @@ impl Outlook {
     /// True unless strata are clearly better than the mean phase, whose expected variance is `mean_phase`.
     ///
     /// From the few paths before a run's first circuit, strata look better than they are: they must have less variance by
-    /// the factor [`MARGIN`].
+    /// the factor [`EARLY`].
     pub(super) fn allows_mean_phase(&self, left: u64, mean_phase: f64) -> bool {
         let strata = self.best_strata(left);
-        strata.is_none_or(|(variance, _)| mean_phase <= variance * MARGIN)
+        strata.is_none_or(|(variance, _)| mean_phase <= variance * EARLY)
     }
 
     /// The way with the smallest expected error, if it is smaller by the factor [`WORTH`] than that of the whole.
     ///
     /// The run may use `queries` queries, of which `left` remain. `mean_phase` is the expected variance of the mean
-    /// phase, infinite if it cannot be run. It counts [`MARGIN`] times.
+    /// phase, infinite if it cannot be run. It counts [`LATE`] times.
     pub(super) fn choose(
         &self,
         by_strata: bool,
@@ -124,7 +129,7 @@ impl Outlook {
         let strata = strata.map(|(variance, count)| (variance, Way::Strata(count)));
         let ways = strata
             .into_iter()
-            .chain([(mean_phase * MARGIN, Way::MeanPhase)]);
+            .chain([(mean_phase * LATE, Way::MeanPhase)]);
         match ways.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((variance, way)) if variance * WORTH * WORTH < alone => way,
             _ => Way::Whole,
