@@ -19,6 +19,9 @@ const LOW: f64 = 1e-6;
 /// Size of touching parts, relative to the whole, below which there is no bound.
 const TOUCHING: f64 = 1.0 / 64.0;
 
+/// Maximum number of pairs that are cut to find touching parts before all others.
+const MOST_TOUCHING: usize = 256;
+
 /// Upper bounds of a lamp's effect on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
@@ -324,6 +327,21 @@ impl Parts {
         }
         [0, 1, 2, 3].map(|part| first + part)
     }
+
+    /// The parts of a pair.
+    fn both(&self, pair: [u32; 2]) -> [&Triangle; 2] {
+        pair.map(|part| &self.all[part as usize])
+    }
+
+    /// Cuts the larger part of a pair, and returns the four pairs with its quarters.
+    fn cut(&mut self, [face, lamp]: [u32; 2]) -> [[u32; 2]; 4] {
+        let [one, other] = self.both([face, lamp]);
+        if one.radius >= other.radius {
+            self.quarters(face).map(|face| [face, lamp])
+        } else {
+            self.quarters(lamp).map(|lamp| [face, lamp])
+        }
+    }
 }
 
 /// A pair of a part of the surface and a part of the lamp.
@@ -353,6 +371,34 @@ impl Ord for Pair {
     }
 }
 
+/// True if smaller parts of one of the `unbounded` pairs, whose sizes are below `least` together, have no bound either.
+///
+/// The search of all pairs would end there, too, but it cuts the largest pairs first. False if
+/// [`MOST_TOUCHING`] pairs do not show it.
+fn touch(
+    parts: &mut Parts,
+    mut unbounded: Vec<[u32; 2]>,
+    bound: &impl Fn(&Triangle, &Triangle) -> f64,
+    least: f64,
+) -> bool {
+    for _ in 0..MOST_TOUCHING {
+        let Some(pair) = unbounded.pop() else {
+            return false;
+        };
+        let [one, other] = parts.both(pair);
+        if one.radius + other.radius < least {
+            return true;
+        }
+        for pair in parts.cut(pair) {
+            let [one, other] = parts.both(pair);
+            if bound(one, other).is_infinite() {
+                unbounded.push(pair);
+            }
+        }
+    }
+    false
+}
+
 /// Returns an upper bound over all pairs of a face and the lamp; `bound` gives that of one pair of triangles.
 /// With `asked`, the bound is only as tight as it takes to tell whether the supremum exceeds this value.
 fn supremum(
@@ -380,6 +426,11 @@ fn supremum(
         }));
     }
     let whole = pairs.iter().map(|pair| pair.size).fold(0.0, f64::max);
+    let unbounded = pairs.iter().filter(|pair| pair.most.is_infinite());
+    let unbounded = unbounded.map(|pair| [pair.face, pair.lamp]).collect();
+    if touch(&mut parts, unbounded, &bound, TOUCHING * whole) {
+        return f64::INFINITY;
+    }
     let mut open = BinaryHeap::from(pairs);
     let point = |part: &Triangle| Triangle {
         radius: 0.0,
@@ -395,7 +446,7 @@ fn supremum(
         let Some(pair) = open.pop() else {
             return dropped * (1.0 + 1e-9);
         };
-        let [face, lamp] = [pair.face, pair.lamp].map(|part| &parts.all[part as usize]);
+        let [face, lamp] = parts.both([pair.face, pair.lamp]);
         let middle = bound(&point(face), &point(lamp));
         if middle.is_finite() {
             taken = taken.max(middle);
@@ -407,15 +458,8 @@ fn supremum(
         if is_told || pair.most <= TIGHT * taken {
             return pair.most.max(dropped) * (1.0 + 1e-9);
         }
-        let cut_face = face.radius >= lamp.radius;
-        let larger = if cut_face { pair.face } else { pair.lamp };
-        for part in parts.quarters(larger) {
-            let (face, lamp) = if cut_face {
-                (part, pair.lamp)
-            } else {
-                (pair.face, part)
-            };
-            let [one, other] = [face, lamp].map(|part| &parts.all[part as usize]);
+        for [face, lamp] in parts.cut([pair.face, pair.lamp]) {
+            let [one, other] = parts.both([face, lamp]);
             let most = bound(one, other);
             if most <= TIGHT * taken {
                 dropped = dropped.max(most);
