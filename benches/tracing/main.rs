@@ -1,6 +1,6 @@
-//! Throughput of the tracer in floating point, and the gain of light sampling.
+//! Throughput of the tracer in floating point, its start, and the gain of light sampling.
 //!
-//! Parts: `speed`, `light`.
+//! Parts: `speed`, `light`, `start`.
 
 // A bench that cannot run has nothing to report.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -9,9 +9,14 @@
 mod common;
 mod light;
 mod speed;
+mod start;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    common::run(&[("speed", speed::run), ("light", light::run)])
+    common::run(&[
+        ("speed", speed::run),
+        ("light", light::run),
+        ("start", start::run),
+    ])
 }
