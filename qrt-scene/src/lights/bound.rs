@@ -373,15 +373,16 @@ impl Ord for Pair {
 
 /// True if smaller parts of one of the `unbounded` pairs, whose sizes are below `least` together, have no bound either.
 ///
-/// The search of all pairs would end there, too, but it cuts the largest pairs first. False if
-/// [`MOST_TOUCHING`] pairs do not show it.
+/// The search of all pairs would end there, too, but it cuts the largest pairs first. False if `most_pairs` pairs do not
+/// show it.
 fn touch(
     parts: &mut Parts,
     mut unbounded: Vec<[u32; 2]>,
     bound: &impl Fn(&Triangle, &Triangle) -> f64,
     least: f64,
+    most_pairs: usize,
 ) -> bool {
-    for _ in 0..MOST_TOUCHING {
+    for _ in 0..most_pairs {
         let Some(pair) = unbounded.pop() else {
             return false;
         };
@@ -428,7 +429,8 @@ fn supremum(
     let whole = pairs.iter().map(|pair| pair.size).fold(0.0, f64::max);
     let unbounded = pairs.iter().filter(|pair| pair.most.is_infinite());
     let unbounded = unbounded.map(|pair| [pair.face, pair.lamp]).collect();
-    if touch(&mut parts, unbounded, &bound, TOUCHING * whole) {
+    let first = most_pairs.min(MOST_TOUCHING);
+    if touch(&mut parts, unbounded, &bound, TOUCHING * whole, first) {
         return f64::INFINITY;
     }
     let mut open = BinaryHeap::from(pairs);
