@@ -110,7 +110,7 @@ pub(crate) fn text() -> String {
             ..Sampling::default()
         })
         .counting(Counting {
-            estimator: Estimator::AdaptiveBayes,
+            estimator: Some(Estimator::AdaptiveBayes),
             ..Counting::default()
         })
         .build();

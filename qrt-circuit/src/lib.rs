@@ -169,6 +169,7 @@ mod evaluate;
 pub mod export;
 pub mod format;
 mod gate;
+mod grouped;
 mod host;
 mod listing;
 pub mod lower;
@@ -179,12 +180,12 @@ mod program;
 pub mod quantum;
 mod record;
 mod register;
-mod text;
 
 pub use controlled::{Controlled, controlled, unconditional};
 pub use cores::Cores;
 pub use evaluate::{Contents, Unclean};
 pub use gate::{Gate, GateCircuit, GateSink, Qubit};
+pub use grouped::grouped;
 pub use host::{
     BorrowedRegister, CallFrame, Caller, Formats, Handed, Host, HostOf, HostRef, Is, Itself,
     Registers, Reversible, Running, Undetermined, Undone, demand,
@@ -195,4 +196,3 @@ pub use op::{Argument, Op, Style, When};
 pub use program::{Instruction, Parameter, Program, WordError};
 pub use record::{Recorded, Recorder};
 pub use register::{Bit, Block, BlockId, Operand, Register, RegisterId, Tag, Type, Word};
-pub use text::grouped;

@@ -14,8 +14,8 @@ pub struct Declaration {
     /// The register's index in the program's list; `None` for a register that joins the list when
     /// it is computed.
     pub id: Option<RegisterId>,
-    /// The index of the garbage register of the operation whose first target this register is;
-    /// `None` if it has no place in the program's list.
+    /// If this register is an operation's first target: the index of the operation's garbage register.
+    /// `None` if that has no place in the program's list.
     pub scratch: Option<RegisterId>,
     /// The style of the operation whose first target this register is; `None` for the machine's.
     pub style: Option<Style>,

@@ -15,7 +15,10 @@
 //! build. There, everything except an operator or an index into a slice is a call: hence plain
 //! loops, and a set type of its own.
 
+mod candidates;
+
 use crate::Cores;
+use candidates::{Candidates, Set};
 use std::collections::{HashMap, HashSet};
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -219,90 +222,6 @@ impl Partner {
     }
 }
 
-/// A set of odd numbers.
-struct Set {
-    /// The numbers in the order of insertion; `held` of them are set.
-    all: Box<[i64]>,
-    held: usize,
-    /// The hash table: 0 in a free place. Its length is a power of two, and twice that of `all`.
-    places: Box<[i64]>,
-}
-
-impl Set {
-    fn new() -> Self {
-        Self {
-            all: Box::new([0; 32]),
-            held: 0,
-            places: Box::new([0; 64]),
-        }
-    }
-
-    /// Returns the place at which the search for the number begins.
-    #[inline(always)]
-    fn first_place(places: &[i64], number: i64) -> usize {
-        // A product of 32 bits by 32 bits cannot overflow.
-        let folded = (number ^ number >> 32) as u32 as u64;
-        ((folded * 0x9e37_79b1) >> 24) as usize & (places.len() - 1)
-    }
-
-    /// Returns the place of the number, or the free place for it.
-    #[inline(always)]
-    fn place(places: &[i64], number: i64) -> usize {
-        let last = places.len() - 1;
-        let mut place = Self::first_place(places, number);
-        while places[place] != 0 && places[place] != number {
-            place = (place + 1) & last;
-        }
-        place
-    }
-
-    #[inline(always)]
-    fn contains(&self, number: i64) -> bool {
-        self.places[Self::place(&self.places, number)] == number
-    }
-
-    #[inline(always)]
-    fn insert(&mut self, number: i64) {
-        let places: &mut [i64] = &mut self.places;
-        let place = Self::place(places, number);
-        if places[place] == number {
-            return;
-        }
-        places[place] = number;
-        self.all[self.held] = number;
-        self.held += 1;
-        if self.held == self.all.len() {
-            self.grow();
-        }
-    }
-
-    fn grow(&mut self) {
-        let mut all = vec![0; 4 * self.all.len()].into_boxed_slice();
-        all[..self.held].copy_from_slice(&self.all);
-        let mut places = vec![0; 2 * all.len()].into_boxed_slice();
-        let mut next = 0;
-        while next < self.held {
-            places[Self::place(&places, all[next])] = all[next];
-            next += 1;
-        }
-        (self.all, self.places) = (all, places);
-    }
-
-    /// Removes all numbers, and keeps the memory.
-    fn clear(&mut self) {
-        let last = self.places.len() - 1;
-        while self.held > 0 {
-            self.held -= 1;
-            // From the first place on, all places up to the number's own are taken.
-            let mut place = Self::first_place(&self.places, self.all[self.held]);
-            while self.places[place] != 0 {
-                self.places[place] = 0;
-                place = (place + 1) & last;
-            }
-        }
-    }
-}
-
 /// Number of nonzero digits of a number in the signed form with the fewest.
 #[inline(always)]
 fn digits(number: i64) -> u32 {
@@ -336,7 +255,7 @@ impl Multiples {
         let rooms = Mutex::new(Vec::new());
         let rooms = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
         let found = cores.map(&unknown, 4, |odd| {
-            let room = rooms().pop().unwrap_or_else(Set::new);
+            let room = rooms().pop().unwrap_or_else(Candidates::new);
             let (sums, room) = Search::sums(odd, room);
             rooms().push(room);
             sums.into()
@@ -383,9 +302,8 @@ struct Search {
     most: i64,
     known: Vec<i64>,
     is_known: Set,
-    /// The multiples that are one sum away from the known ones, and the number of known ones
-    /// considered.
-    near: Set,
+    candidates: Candidates,
+    /// Number of known multiples from which the candidates are reached.
     reached: usize,
     /// The multiples that are still to do, in ascending order.
     wanted: Vec<Wanted>,
@@ -401,36 +319,56 @@ struct Wanted {
 }
 
 impl Wanted {
-    #[inline(always)]
-    fn insert(&mut self, other: i64, known: &Set) {
-        // A near multiple is computed before its set is read again.
-        if !self.is_near {
-            self.is_near = known.contains(other);
-            self.from.insert(other);
+    fn new(multiple: i64) -> Self {
+        Self {
+            multiple,
+            from: Set::new(),
+            is_near: false,
         }
     }
-}
 
-impl Wanted {
-    fn insert_all(&mut self, others: &Others, known: &Set) {
+    #[inline(always)]
+    fn insert(&mut self, other: i64, known: &Set, candidates: &mut Candidates) {
+        if self.is_near {
+            return;
+        }
+        if known.contains(other) {
+            self.is_near = true;
+            self.leave(candidates);
+        } else if self.from.insert(other) {
+            candidates.helps(other);
+        }
+    }
+
+    fn insert_all(&mut self, others: &Others, known: &Set, candidates: &mut Candidates) {
         let mut next = 0;
         while next < others.count {
-            self.insert(others.numbers[next], known);
+            self.insert(others.numbers[next], known, candidates);
+            next += 1;
+        }
+    }
+
+    /// Withdraws the multiple's candidates: it is computed before they are compared again.
+    fn leave(&mut self, candidates: &mut Candidates) {
+        let from = std::mem::replace(&mut self.from, Set::new());
+        let mut next = 0;
+        while next < from.held {
+            candidates.helps_no_more(from.all[next]);
             next += 1;
         }
     }
 }
 
 impl Search {
-    /// Returns the sums that compute the odd numbers `odd`, which ascend. `room` is an empty set,
-    /// and is returned empty.
-    fn sums(odd: &[i64], room: Set) -> (Vec<(i64, Sum)>, Set) {
+    /// Returns the sums that compute the odd numbers `odd`, which ascend. `room` is empty, and is
+    /// returned empty.
+    fn sums(odd: &[i64], room: Candidates) -> (Vec<(i64, Sum)>, Candidates) {
         let mut search = Self {
             most: odd.last().map_or(1, |most| most << 2),
             known: vec![1],
             is_known: Set::new(),
             reached: 0,
-            near: room,
+            candidates: room,
             wanted: Vec::new(),
         };
         search.is_known.insert(1);
@@ -438,8 +376,8 @@ impl Search {
             search.want(multiple);
         }
         let sums = std::iter::from_fn(|| search.step()).collect();
-        search.near.clear();
-        (sums, search.near)
+        search.candidates.clear();
+        (sums, search.candidates)
     }
 
     fn want(&mut self, multiple: i64) {
@@ -450,21 +388,18 @@ impl Search {
         if self.is_known.contains(multiple) || self.wanted.get(place).is_some_and(there) {
             return;
         }
-        let mut wanted = Wanted {
-            multiple,
-            from: Set::new(),
-            is_near: false,
-        };
+        let mut wanted = Wanted::new(multiple);
         for &known in &self.known {
             let others = Others::new(multiple, known, self.most);
-            wanted.insert_all(&others, &self.is_known);
+            wanted.insert_all(&others, &self.is_known, &mut self.candidates);
         }
         // The sum of a multiple with itself, shifted.
         let mut shift = 1;
         while shift < CONSTANT_BITS && (1 << shift) - 1 <= multiple {
             for factor in [(1 << shift) - 1, (1 << shift) + 1] {
                 if factor > 1 && multiple % factor == 0 {
-                    wanted.insert(multiple / factor, &self.is_known);
+                    let other = multiple / factor;
+                    wanted.insert(other, &self.is_known, &mut self.candidates);
                 }
             }
             shift += 1;
@@ -472,7 +407,7 @@ impl Search {
         self.wanted.insert(place, wanted);
     }
 
-    /// Adds to `near` the multiples that are one sum away from the known ones.
+    /// Marks the multiples that are one sum away from the known ones.
     fn reach(&mut self) {
         while self.reached < self.known.len() {
             self.reached += 1;
@@ -480,14 +415,13 @@ impl Search {
         }
     }
 
-    /// Adds to `near` the multiples that are one sum away from the one at `place` and those before
-    /// it.
+    /// Marks the multiples that are one sum away from the one at `place` and those before it.
     fn reach_from(&mut self, place: usize) {
         let multiple = self.known[place];
-        let (most, near) = (self.most, &mut self.near);
+        let (most, candidates) = (self.most, &mut self.candidates);
         let mut reached = |factor: i64| {
             if factor <= most {
-                near.insert(factor);
+                candidates.reach(factor);
             }
         };
         for &known in &self.known[..=place] {
@@ -524,14 +458,21 @@ impl Search {
         debug_assert!(best.is_some(), "{multiple} is no sum of {:?}", self.known);
         self.known.push(multiple);
         self.is_known.insert(multiple);
-        self.wanted.retain(|wanted| wanted.multiple != multiple);
+        let own = |wanted: &Wanted| wanted.multiple == multiple;
+        if let Some(place) = self.wanted.iter().position(own) {
+            self.wanted.remove(place).leave(&mut self.candidates);
+        }
         for wanted in &mut self.wanted {
-            if wanted.is_near || wanted.from.contains(multiple) {
+            if wanted.is_near {
+                continue;
+            }
+            if wanted.from.contains(multiple) {
                 wanted.is_near = true;
+                wanted.leave(&mut self.candidates);
                 continue;
             }
             let others = Others::new(wanted.multiple, multiple, self.most);
-            wanted.insert_all(&others, &self.is_known);
+            wanted.insert_all(&others, &self.is_known, &mut self.candidates);
         }
         best.map(|(_, sum)| (multiple, sum))
     }
@@ -581,36 +522,7 @@ impl Search {
     /// Returns the multiple, one sum away, from which the most wanted ones are one sum.
     fn between(&mut self) -> Option<i64> {
         self.reach();
-        let mut helpful = Vec::new();
-        for wanted in &self.wanted {
-            let from = &wanted.from;
-            let mut next = 0;
-            while next < from.held {
-                if self.near.contains(from.all[next]) {
-                    helpful.push(from.all[next]);
-                }
-                next += 1;
-            }
-        }
-        helpful.sort_unstable();
-        // The multiples that help the most, in ascending order.
-        let helpful: &[i64] = &helpful;
-        let (mut most, mut best) = (0, Vec::new());
-        let mut first = 0;
-        while first < helpful.len() {
-            let mut end = first + 1;
-            while end < helpful.len() && helpful[end] == helpful[first] {
-                end += 1;
-            }
-            if end - first > most {
-                most = end - first;
-                best.clear();
-            }
-            if end - first == most {
-                best.push(helpful[first]);
-            }
-            first = end;
-        }
+        let (most, best) = self.candidates.most_helpful();
         if most == self.wanted.len() || best.is_empty() {
             return best.first().copied();
         }
@@ -702,6 +614,14 @@ mod tests {
         }
         let by_digits: usize = odd().map(|constant| digits(constant) as usize - 1).sum();
         assert!(8 * fewer > by_digits, "{fewer} of {by_digits}");
+    }
+
+    #[test]
+    fn many_constants_share_more_sums_than_few() {
+        let constants: Vec<i64> = (1..257).map(|n| (n * n * 7919) % (1 << 20)).collect();
+        let together = checked(&constants);
+        let apart: usize = constants.chunks(48).map(checked).sum();
+        assert!(4 * together < 3 * apart, "{together} and {apart}");
     }
 
     #[test]

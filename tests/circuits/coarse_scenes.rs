@@ -3,8 +3,8 @@
 //! and corners.
 //!
 //! For each scene: all models agree, no path exceeds its bound, the order of the list changes nothing
-//! except which face of one plane hides another, and a search finds the same faces as the tracer. Over
-//! all scenes, light sampling does not change the brightness.
+//! except which face of one plane hides another and which face of a mesh is met at an edge, and a search finds
+//! the same faces as the tracer. Over all scenes, light sampling does not change the brightness.
 
 use crate::common::cuboid::sides;
 use crate::common::numbers::Numbers;

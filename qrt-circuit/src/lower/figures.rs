@@ -91,7 +91,7 @@ impl KnownFigures {
                 places.push(place);
             }
         }
-        // The gates of a large encoder take a gigabyte: they are counted one encoder after the other.
+        // The gates of a large encoder may take a gigabyte: they are counted one encoder after the other.
         let is_large = |op: &Op| matches!(op, Op::Encode { bits, .. } if bits.len() > LARGE);
         let figures = cores.map(&new, 16, |(op, widths)| {
             (!is_large(op)).then(|| counted(op, widths))

@@ -190,7 +190,7 @@ fn choose_lows<'a>(tables: impl Iterator<Item = &'a mut Op>, known: &Mutex<Known
 /// The largest number of products that are computed together, and the same for products with constants of
 /// spheres and edges: there are many, and they are a third of a search.
 const TOGETHER: usize = 12;
-const OF_MANY: usize = 48;
+const OF_MANY: usize = 512;
 
 /// Computes products of one number with constants from shared sums, where that is cheaper.
 fn share_multiples(draft: &mut Draft, strategy: Strategy, known: &Mutex<Known>) {

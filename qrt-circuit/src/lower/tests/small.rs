@@ -453,6 +453,22 @@ fn tables() {
 }
 
 #[test]
+fn an_encoder_whose_entries_count_upwards_takes_four_cnots_for_a_bit_and_target() {
+    let (count, targets) = (64, 3);
+    let op = Op::Encode {
+        bits: (0..count).map(|index| bit(0, index, false)).collect(),
+        entries: (0..u64::from(count)).map(|place| 64 + place).collect(),
+        targets: (1..=targets).map(|number| R[number]).collect(),
+        scratch: R[targets + 1],
+    };
+    let widths: Vec<u32> = [count].into_iter().chain(vec![7; targets]).collect();
+    let widths = |register: RegisterId| widths.get(register.index()).copied().unwrap_or(0);
+    let cnots = cost(&op, false, widths).cnot;
+    let pairs = u64::from(count) * targets as u64;
+    assert!(cnots <= 4 * pairs, "{cnots} CNOTs for {pairs} pairs");
+}
+
+#[test]
 fn a_priority_encoder_finds_the_first_bits_that_hold() {
     for count in 1..7_u32 {
         for targets in 1..4 {

@@ -3,6 +3,7 @@
 use super::Chance;
 use super::circuit::Circuit;
 use crate::compile::{BoolValue, Builder, RealValue};
+use crate::oracle::Oracles;
 use glam::DVec3;
 use qrt_circuit::lower;
 use qrt_scene::front::parse;
@@ -47,7 +48,7 @@ fn beside(ball: &StageBall, origin: DVec3, direction: DVec3) -> (f64, f64) {
     ((to - direction * along).length(), along)
 }
 
-/// Comparison of 10,000 hits with those of the same rays in high precision.
+/// Comparison of the hits of [`RAYS`] rays with those of the same rays in high precision.
 struct Compared {
     wrong: usize,
     /// Greatest distance of a wrong hit's line from the sphere's edge, in radii.
@@ -57,6 +58,8 @@ struct Compared {
     /// Errors of the distances of right hits, in radii, in increasing order.
     errors: Vec<f64>,
 }
+
+const RAYS: usize = 10_000;
 
 /// Runs rays aimed within 1.3 radii of the centre of the first sphere.
 fn compare(circuit: &Circuit, scene: &ValidScene, fraction: u32) -> Compared {
@@ -70,9 +73,13 @@ fn compare(circuit: &Circuit, scene: &ValidScene, fraction: u32) -> Compared {
         moved: 0,
         errors: Vec::new(),
     };
-    for _ in 0..10_000 {
+    for _ in 0..RAYS {
         let mut between = |low, high| chance.between(low, high);
-        let origin = DVec3::new(between(-0.7, 0.7), between(0.0, 0.5), between(-0.7, 0.7));
+        let mut start = || DVec3::new(between(-0.7, 0.7), between(0.0, 0.5), between(-0.7, 0.7));
+        let mut origin = start();
+        while ball.outside(origin) < ball.radius {
+            origin = start();
+        }
         let reach = 1.3 * ball.radius;
         let aim = DVec3::from_array([(); 3].map(|()| between(-reach, reach)));
         let direction = (ball.centre + aim - origin).normalize();
@@ -100,22 +107,47 @@ fn compare(circuit: &Circuit, scene: &ValidScene, fraction: u32) -> Compared {
     compared
 }
 
-/// A few hits are wrong, and their lines pass so near to the edge that the last bit of a coordinate decides: the
-/// rounding of a ray moves more of them across the edge.
+/// A sphere may have a radius of 16 units in the last place. Its guard bits must leave products within a register.
+#[test]
+fn the_smallest_spheres_far_from_the_eye_have_circuits() {
+    for fraction in 12..=20 {
+        for units in [16.5, 24.0, 33.0] {
+            // 16 scene units are one of the stage.
+            let radius = 16.0 * units * f64::exp2(-f64::from(fraction));
+            for eye in [[0.0, 1.0, 60.0], [0.0, 14.0, 16.0]] {
+                let text = format!(
+                    "name: speck\nfilm: {{ width: 1, height: 1 }}\ncamera: {{ perspective: {{ eye: {eye:?}, target: \
+                     [0, 0, 0], vfov: 40 }} }}\nmaterials: {{ matte: {{ lambertian: {{ albedo: 0.5 }} }} }}\nsky: {{ \
+                     radiance: 1 }}\nprecision: {{ fraction: {fraction} }}\ngeometry:\n  - quad: {{ vertices: [[-15, \
+                     -12, -15], [-15, -12, 15], [15, -12, 15], [15, -12, -15]], material: matte }}\n  - sphere: {{ \
+                     center: [14.5, 12, 14.5], radius: {radius}, material: matte }}\n"
+                );
+                let scene = parse(&text, "speck.yaml", &[], "".as_ref()).unwrap().valid;
+                if let Err(error) = Oracles::new(&scene).costs() {
+                    panic!("{fraction} bits, {units} units, {eye:?}: {error}");
+                }
+            }
+        }
+    }
+}
+
+/// Below 16 bits a few hits are wrong, and their lines pass so near to the edge that the last bit of a coordinate
+/// decides: the rounding of a ray moves more of them across the edge.
 #[test]
 fn grazing_rays_meet_what_they_meet_in_high_precision() {
     let scene = field(1);
-    for (fraction, most_wrong, farthest) in [(16, 3, 0.0002), (14, 20, 0.005), (12, 60, 0.03)] {
+    for (fraction, most_wrong, farthest) in [(16, 0, 0.0), (14, 1, 0.0004), (12, 8, 0.002)] {
         let circuit = Circuit::nearest(&scene, fraction);
         let compared = compare(&circuit, &scene, fraction);
         let errors = &compared.errors;
         let [middle, most] = [errors.len() / 2, errors.len() * 99 / 100].map(|k| errors[k]);
         println!(
-            "{fraction} bits: {} of 10000 wrong, at most {:.6} radii from the edge; the rays' own rounding \
+            "{fraction} bits: {} of {RAYS} wrong, at most {:.6} radii from the edge; the rays' own rounding \
              changes {}; error of the distance over the radius: median {middle:.4}, 99 % below {most:.4}",
             compared.wrong, compared.farthest, compared.moved
         );
         assert!(errors.len() > 3000);
+        assert!(compared.moved > compared.wrong);
         assert!(
             compared.wrong <= most_wrong && compared.farthest <= farthest,
             "{fraction}: {} wrong, {}",
@@ -133,7 +165,7 @@ fn a_sphere_of_a_long_chain_takes_few_gates() {
     let [few, many] = [&few, &many].map(|circuit| lower::toffoli(&circuit.program));
     let each = (many - few) as f64 / (484.0 - 64.0);
     println!("{many} Toffolis for 484 spheres: {each:.0} each");
-    assert!(each <= 1200.0, "{each}");
+    assert!(each <= 1000.0, "{each}");
 }
 
 /// The textbook's other form (Haines and others, 2019): with the centre `c` seen from the ray's start and `b = c.d`,

@@ -25,10 +25,10 @@ fn meets(outline: &[DVec3], origin: DVec3, direction: DVec3) -> bool {
 }
 
 /// True if the closed surface encloses the point, or is `near` it.
-fn encloses(faces: &[Vec<DVec3>], point: DVec3, near: f64) -> bool {
+fn encloses(faces: &[&[DVec3]], point: DVec3, near: f64) -> bool {
     let direction = DVec3::new(0.615_234_917, 0.493_817_263, 0.614_327_811).normalize();
     let ahead =
-        |face: &&Vec<DVec3>| meets(face, point, direction) && far(face, point, direction) > 0.0;
+        |face: &&&[DVec3]| meets(face, point, direction) && far(face, point, direction) > 0.0;
     faces
         .iter()
         .any(|face| polygon_distance(face, point) <= near)
@@ -42,7 +42,7 @@ fn far(corners: &[DVec3], origin: DVec3, direction: DVec3) -> f64 {
 }
 
 /// The nearest of the triangles that a ray meets.
-fn nearest(faces: &[Vec<DVec3>], origin: DVec3, direction: DVec3) -> Option<usize> {
+fn nearest(faces: &[&[DVec3]], origin: DVec3, direction: DVec3) -> Option<usize> {
     let hits = faces.iter().enumerate().filter_map(|(face, corners)| {
         let distance = far(corners, origin, direction);
         let met = meets(corners, origin, direction) && distance > 0.0;
@@ -76,7 +76,7 @@ fn shoot(
     let scene = scene(triangles);
     let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
     let geometry = stage.geometry();
-    let faces = &geometry.corners;
+    let faces: &Vec<&[DVec3]> = &geometry.corners.iter().collect();
     let circuit = Circuit::nearest(&scene, fraction);
     let units = (1_u64 << fraction) as f64;
     let open = name.starts_with("waves");
@@ -92,7 +92,7 @@ fn shoot(
             let [a, b, c] = [faces[any][0], faces[any][1], faces[any][2]];
             origin = (a + b + c) / 3.0 + 0.01 * (b - a).cross(c - a).normalize();
         }
-        let aimed = &faces[6 + (chance.next() * (none - 6) as f64) as usize];
+        let aimed = faces[6 + (chance.next() * (none - 6) as f64) as usize];
         let [a, b, c] = [aimed[0], aimed[1], aimed[2]];
         let weights = [(); 3].map(|()| chance.next() + 1e-3);
         let sum: f64 = weights.iter().sum();
@@ -127,7 +127,7 @@ fn shoot(
             outcomes.neighbours += 1;
         } else {
             outcomes.wrong += 1;
-            let expected = expected.map_or(9.0, |face| far(&faces[face], origin, direction));
+            let expected = expected.map_or(9.0, |face| far(faces[face], origin, direction));
             outcomes.passed += usize::from(distance > expected + 0.02);
         }
     }
@@ -174,7 +174,7 @@ fn shadows_fall_as_in_f64_from_near_and_far() {
         (ray.direction[0], cx.select_index(hidden, hides, far))
     });
     let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
-    let faces = &stage.geometry().corners[6..];
+    let faces: &Vec<&[DVec3]> = &stage.geometry().corners.iter().skip(6).collect();
     let units = 65_536.0;
     let mut chance = Chance(3);
     let mut point = || DVec3::from_array([(); 3].map(|()| chance.between(-HALF, HALF)));
