@@ -31,9 +31,14 @@ pub(crate) fn colour<const C: usize>(
     refraction: Option<&Refraction>,
 ) -> [f64; C] {
     let emitted = |place: usize| &radiance[places.surface(place) as usize];
+    let lamps = 0..places.len() as u32;
+    let lamps: Vec<u32> = lamps
+        .filter(|&place| *emitted(place as usize) != [0.0; C])
+        .collect();
     let mut beyond = vec![[0.0; C]; places.len()];
     // From the last vertex back to the first.
     for scatter in scatters.iter().rev() {
+        let goes_on = beyond.iter().any(|after| *after != [0.0; C]);
         let at = |place: usize| {
             let surface = places.surface(place);
             let mut weight = scatter.weight_bound(surface);
@@ -44,15 +49,20 @@ pub(crate) fn colour<const C: usize>(
             let lights = scatter.lights.as_ref();
             let counts = lights.map_or(1.0, |l| l.sun_bound(places, place, samples));
             let mut most: [f64; C] = std::array::from_fn(|c| sky[c] + counts * sun[c]);
-            for other in places.next(place) {
-                let factor =
-                    lights.map_or(1.0, |l| l.emission_bound(places, [place, other], samples));
-                for (most, (emitted, after)) in most
-                    .iter_mut()
-                    .zip(emitted(other).iter().zip(&beyond[other]))
-                {
-                    *most = f64::max(*most, emitted * factor + after);
+            let next = places.next(place);
+            if goes_on {
+                for &other in next {
+                    let after = &beyond[other as usize];
+                    most = std::array::from_fn(|c| f64::max(most[c], after[c]));
                 }
+            }
+            for &lamp in lamps.iter().filter(|lamp| next.binary_search(lamp).is_ok()) {
+                let lamp = lamp as usize;
+                let factor = lights.map_or(1.0, |lights| {
+                    lights.emission_bound(places, [place, lamp], samples)
+                });
+                let (emitted, after) = (emitted(lamp), &beyond[lamp]);
+                most = std::array::from_fn(|c| f64::max(most[c], emitted[c] * factor + after[c]));
             }
             let light = lights.map_or([0.0; C], |l| l.light_bound(place, samples));
             let reflected = scatter.light_weight_bound(surface);
@@ -71,4 +81,58 @@ pub(crate) fn colour<const C: usize>(
         }
     }
     bound.map(|bound| bound * refraction.map_or(1.0, Refraction::most))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{PixelClass, Stage};
+
+    /// A floor, half of it matte, below a lamp whose front looks up.
+    fn floor_behind_a_lamp(material: &str, map: &str, lights: &str) -> [f64; 3] {
+        let text = format!(
+            "name: behind
+camera: {{ perspective: {{ eye: [0, 1, -3], target: [0, 0, 0], vfov: 30 }} }}
+film: {{ width: 2, height: 2 }}
+materials:
+  floor: {material}
+  matte: {{ lambertian: {{ albedo: [0.5, 0.5, 0.5] }} }}
+  lamp: {{ emitter: {{ radiance: [1, 1, 1] }} }}
+geometry:
+  - quad: {{ vertices: [[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], material: floor }}
+  - quad: {{ vertices: [[1, 0, -1], [1, 0, 1], [3, 0, 1], [3, 0, -1]], material: matte }}
+  - quad: {{ vertices: [[-1, 3, -1], [-1, 3, 1], [1, 3, 1], [1, 3, -1]], material: lamp }}
+sampling:
+  path_bits: 10
+  depths: [{{ bits: [4, 4] }}, {{ bits: [4, 4], map: {map}, light: [4, 4] }}]
+  lights: {lights}
+"
+        );
+        let read = qrt_scene::front::parse(&text, "behind.yaml", &[], "".as_ref());
+        let scene = read.unwrap_or_else(|report| panic!("{report}")).valid;
+        Stage::rgb(&scene, PixelClass::MeetsNoLamp).bound()
+    }
+
+    #[test]
+    fn surfaces_behind_a_lamp_gain_nothing_where_lamps_are_sampled() {
+        let map =
+            r#"map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"], value: 0.15"#;
+        let with_density = format!("{{ bsdf: {{ {map}, pdf: \"cos_i/pi\" }} }}");
+        let without_density = format!("{{ bsdf: {{ {map} }} }}");
+        let matte = "{ lambertian: { albedo: [0.5, 0.5, 0.5] } }";
+        let rough = "{ ggx: { alpha: 0.5, reflectance: [0.5, 0.5, 0.5] } }";
+        for (material, map) in [
+            (matte, "auto"),
+            (matte, "uniform-hemisphere"),
+            (rough, "auto"),
+            (&with_density, "auto"),
+            (&without_density, "cosine-hemisphere"),
+            (&without_density, "uniform-hemisphere"),
+        ] {
+            let bound = floor_behind_a_lamp(material, map, "mis");
+            assert_eq!(bound, [0.0; 3], "{material} {map}");
+        }
+        // Rays of the surface's own map count the lamp, whose sides are not told apart.
+        let bound = floor_behind_a_lamp(&without_density, "auto", "auto");
+        assert!(bound[0] > 0.0, "{bound:?}");
+    }
 }

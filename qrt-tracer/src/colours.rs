@@ -55,18 +55,18 @@ impl<const C: usize> ColourStage<C> {
         let mut rows = channels.map(|channel| -> Vec<[f64; 4]> {
             surface_of.iter().map(|s| plain(s, channel)).collect()
         });
-        let main = |polygon: usize| main_axis(geometry.frames[polygon].normal) as u32;
+        let main = |polygon: usize| main_axis(geometry.normal(polygon)) as u32;
         // One axis for all faces costs a circuit nothing.
         let mut axes = vec![main(faces[0].polygon); surface_of.len()];
         let mut reach: f64 = 0.0;
         for &ColouredFace { polygon, colours } in faces {
             let corners = &geometry.corners[polygon];
-            reach = reach.max(extent(corners, geometry.frames[polygon].centre));
+            reach = reach.max(extent(corners, geometry.frame(polygon).centre));
             axes[polygon] = main(polygon);
             for (rows, channel) in rows.iter_mut().zip(channels) {
                 let [most, ..] = rows[polygon];
                 let values = colours.map(|colour| most * colour[channel]);
-                rows[polygon] = row(corners, values, &geometry.frames[polygon]);
+                rows[polygon] = row(corners, values, &geometry.frame(polygon));
             }
         }
         let has_checker = |&surface: &u32| surfaces[surface as usize].checker().is_some();

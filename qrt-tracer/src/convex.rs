@@ -154,7 +154,7 @@ impl Edges {
     pub(super) fn fold(&self, geometry: &StageGeometry, edge: [u32; 2], faces: [usize; 2]) -> bool {
         let [start, end] = self.ends(edge);
         let [a, b] = faces.map(|place| {
-            let centre = geometry.frames[geometry.faces[place].label as usize].centre;
+            let centre = geometry.frame(geometry.faces[place].label as usize).centre;
             (end - start).cross(centre - start).normalize_or_zero()
         });
         a.dot(b) > FOLDED
@@ -406,7 +406,7 @@ impl Finder<'_> {
 /// True if other faces on the plane cover one of `faces` (by place), all of which are on it.
 pub(super) fn covered(geometry: &StageGeometry, plane: usize, faces: &[usize]) -> bool {
     let range = geometry.planes[plane].faces.clone();
-    let outline = |place: usize| &*geometry.corners[geometry.faces[place].label as usize];
+    let outline = |place: usize| &geometry.corners[geometry.faces[place].label as usize];
     let own: HashSet<usize> = faces.iter().copied().collect();
     let others: Vec<&[DVec3]> = range
         .filter(|place| !own.contains(place))

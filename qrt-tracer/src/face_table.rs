@@ -301,10 +301,11 @@ impl DiscColumns {
             scale: [0.0; 2],
             square: 0.0,
         };
-        let disc = face.disc.as_ref().unwrap_or(&open);
+        let disc = face.disc.as_deref().unwrap_or(&open);
         for k in 0..2 {
             let row = face
                 .disc
+                .as_ref()
                 .map_or(Row::OPEN, |_| Row::new(&face.edge_tests[k], seen));
             let away = if face.disc.is_some() {
                 let [a, b] = face.edge_tests[k].form;

@@ -124,7 +124,7 @@ pub fn trace<A: Arith, N: NearestSearch<A>, const C: usize>(
         if emits.is_none() && scatter.is_none() {
             break;
         }
-        vertex.normal = cx.rows(&stage.normals, hit.face);
+        vertex.normal = cx.rows(stage.normals(), hit.face);
         cx.enter(TracerPart::Side(depth));
         let round = stage.round(cx, &ray, hit.distance, hit.face);
         if let Some(round) = &round {
@@ -313,7 +313,7 @@ impl<const C: usize> Stage<C> {
     }
 
     /// Sets what depends on the point `origin` at which a path leaves `face`, with this row of
-    /// [`Stage::frames`].
+    /// [`StageGeometry::frames`].
     #[inline(always)]
     fn place<A: Arith>(
         &self,
@@ -339,7 +339,7 @@ impl<const C: usize> Stage<C> {
     }
 }
 
-/// The row of [`Stage::frames`] of a hit, at a vertex with its final normal. On a sphere or a smooth face
+/// The row of [`StageGeometry::frames`] of a hit, at a vertex with its final normal. On a sphere or a smooth face
 /// the tangents follow from the normal, and the centre of a sphere's hit is the hit itself: the next start.
 #[inline(always)]
 fn frame<A: Arith, const C: usize>(
@@ -349,7 +349,7 @@ fn frame<A: Arith, const C: usize>(
     round: Option<&Round<A>>,
     vertex: &Vertex<A, C>,
 ) -> [A::Real; 9] {
-    let mut row = cx.rows(&stage.frames, face);
+    let mut row = cx.rows(&stage.geometry.frames, face);
     let computed = match (round, &vertex.smooth) {
         (None, None) => return row,
         (Some(round), None) => round.is,
@@ -369,7 +369,7 @@ fn frame<A: Arith, const C: usize>(
     row
 }
 
-/// The start of the next ray, on a face with this row of [`Stage::frames`].
+/// The start of the next ray, on a face with this row of [`StageGeometry::frames`].
 #[inline(always)]
 pub(super) fn start<A: Arith>(
     cx: &mut A,

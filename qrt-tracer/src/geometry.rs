@@ -6,6 +6,7 @@
 //! origin.
 
 use super::ball::StageBall;
+use super::corners::Corners;
 use super::polygon::{
     DiscTest, EdgeTest, FaceFrame, Plane, disc_tests, edge_tests, frame, plane_of,
 };
@@ -13,6 +14,7 @@ use glam::DVec3;
 use qrt_scene::polygons::{Outlines, SAME_PLANE, fill_once, stage_units};
 use qrt_scene::valid::{Ball, Polygon};
 use std::cmp::Ordering;
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
@@ -52,7 +54,7 @@ pub struct Face {
     /// for a triangle.
     pub edge_tests: Vec<EdgeTest>,
     /// The test of a disc, whose square has two edge tests.
-    pub disc: Option<DiscTest>,
+    pub disc: Option<Box<DiscTest>>,
 }
 
 impl Face {
@@ -81,9 +83,15 @@ impl KnownPlanes {
 
     /// Adds plane number `plane`, the number of planes so far, to the bucket `key`.
     fn add(&mut self, key: [i64; 3], plane: u32) {
-        match self.in_bucket(&key).last() {
-            Some(last) => self.next[last as usize] = plane,
-            None => _ = self.first.insert(key, plane),
+        match self.first.entry(key) {
+            Entry::Vacant(entry) => _ = entry.insert(plane),
+            Entry::Occupied(entry) => {
+                let mut last = *entry.get() as usize;
+                while self.next[last] != NO_PLANE {
+                    last = self.next[last] as usize;
+                }
+                self.next[last] = plane;
+            }
         }
         self.next.push(NO_PLANE);
     }
@@ -108,7 +116,7 @@ fn leave_out_copies(faces: &mut Vec<Face>) {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     // Copies come one after the other, the first of the scene first.
     order.sort_by(|&a, &b| compare(&faces[a], &faces[b]));
-    let outline = |place: usize| (&faces[place].edge_tests, faces[place].disc);
+    let outline = |place: usize| (&faces[place].edge_tests, &faces[place].disc);
     let is_copy = |pair: &&[usize]| outline(pair[0]) == outline(pair[1]);
     let copies = order.windows(2).filter(is_copy).map(|pair| pair[1]);
     let copies: HashSet<u32> = copies.map(|copy| faces[copy].label).collect();
@@ -128,12 +136,14 @@ pub struct StageGeometry {
     /// Faces, grouped by plane, in the order of the scene: where faces of one plane overlap, the
     /// one listed first wins.
     pub faces: Vec<Face>,
-    /// The shading frame of each polygon's label.
-    pub frames: Vec<FaceFrame>,
+    /// The unit normal of each label's front; zeros for a sphere.
+    pub(crate) normals: Vec<[f64; 3]>,
+    /// The tangent, bitangent and centre of each label; zeros for a sphere, whose frame depends on the hit.
+    pub(crate) frames: Vec<[f64; 9]>,
     /// The plane of each face label; for a sphere [`StageBall::number`].
     pub plane_of: Vec<u32>,
-    /// The corners of each polygon's label, 3 or 4. Those of a disc are the corners of the square around it.
-    pub corners: Vec<Vec<DVec3>>,
+    /// The corners of each polygon's label.
+    pub corners: Corners,
     /// The point of the scene that is the stage's origin.
     pub centre: DVec3,
     /// Stage units per scene unit: a power of two.
@@ -172,9 +182,10 @@ impl StageGeometry {
             by_axis: [0..0, 0..0, 0..0],
             emitting: [Vec::new(), Vec::new(), Vec::new()],
             faces: Vec::new(),
-            frames: Vec::with_capacity(polygons.len()),
-            plane_of: Vec::with_capacity(polygons.len()),
-            corners: Vec::with_capacity(polygons.len()),
+            normals: Vec::with_capacity(polygons.len() + balls.len()),
+            frames: Vec::with_capacity(polygons.len() + balls.len()),
+            plane_of: Vec::with_capacity(polygons.len() + balls.len()),
+            corners: Corners::new(polygons, staged),
             centre,
             scale,
             tolerance,
@@ -185,23 +196,20 @@ impl StageGeometry {
         let mut faces = Vec::with_capacity(polygons.len());
         let mut known = KnownPlanes::default();
         for (label, polygon) in polygons.iter().enumerate() {
-            let corners: Vec<DVec3> = polygon.vertices[..polygon.corners as usize]
-                .iter()
-                .map(|&v| staged(v))
-                .collect();
-            let frame = frame(&corners);
-            let plane = plane_of(&corners, &frame);
+            let corners = &geometry.corners[label];
+            let frame = frame(corners);
+            let plane = plane_of(corners, &frame);
             let (edge_tests, disc) = if polygon.disc {
-                let (edge_tests, disc) = disc_tests(&corners, plane.axis, tolerance);
-                (edge_tests, Some(disc))
+                let (edge_tests, disc) = disc_tests(corners, plane.axis, tolerance);
+                (edge_tests, Some(Box::new(disc)))
             } else {
-                let edge_tests = edge_tests(&corners, plane.axis, frame.centre, tolerance);
+                let edge_tests = edge_tests(corners, plane.axis, frame.centre, tolerance);
                 (edge_tests, None)
             };
             let plane = geometry.find_plane(plane, &mut known);
-            geometry.frames.push(frame);
+            geometry.normals.push(frame.normal.to_array());
+            geometry.frames.push(frame.row());
             geometry.plane_of.push(plane);
-            geometry.corners.push(corners);
             faces.push(Some(Face {
                 label: label as u32,
                 emits: emits(polygon.surface),
@@ -222,6 +230,8 @@ impl StageGeometry {
         let [polygons, planes] = [self.corners.len(), self.planes.len()];
         for (place, ball) in balls.iter().enumerate() {
             let number = (planes + place) as u32;
+            self.normals.push([0.0; 3]);
+            self.frames.push([0.0; 9]);
             self.plane_of.push(number);
             self.balls.push(StageBall {
                 centre: (ball.centre - self.centre) * self.scale,
@@ -246,7 +256,7 @@ impl StageGeometry {
 
     /// The corners of all polygons, and of the boxes around the spheres.
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
-        let corners = self.corners.iter().flatten().copied();
+        let corners = self.corners.points().iter().copied();
         corners.chain(self.balls.iter().flat_map(StageBall::corners))
     }
 
@@ -254,6 +264,16 @@ impl StageGeometry {
     pub(super) fn staged(&self, points: &[DVec3]) -> Vec<DVec3> {
         let staged = |&point: &DVec3| (point - self.centre) * self.scale;
         points.iter().map(staged).collect()
+    }
+
+    /// The unit normal of the front of polygon `label`.
+    pub(crate) fn normal(&self, label: usize) -> DVec3 {
+        self.normals[label].into()
+    }
+
+    /// The shading frame of polygon `label`.
+    pub fn frame(&self, label: usize) -> FaceFrame {
+        FaceFrame::new(self.normals[label], &self.frames[label])
     }
 
     /// The faces on plane number `plane`.
@@ -265,7 +285,7 @@ impl StageGeometry {
     fn find_plane(&mut self, new: Plane, known: &mut KnownPlanes) -> u32 {
         // Buckets are so narrow that few distinct planes share one. A plane near a bucket's edge is also
         // searched in the bucket beyond the edge.
-        let width = SAME_PLANE * 4.0;
+        let width = SAME_PLANE * 16.0;
         let values = |plane: &Plane| [plane.form[0], plane.form[1], plane.offset];
         let bucket = |k: usize, shift: f64| ((values(&new)[k] + shift) / width).floor() as i64;
         let sides = [0, 1, 2].map(|k| [-SAME_PLANE, SAME_PLANE].map(|shift| bucket(k, shift)));
@@ -313,7 +333,7 @@ impl StageGeometry {
     /// Finds the faces that hide or may cover a later face that emits. All `faces` are on one plane, whose
     /// main axis is `axis`.
     fn cover(&self, axis: usize, faces: &mut [Face]) {
-        let outline = |face: &Face| &*self.corners[face.label as usize];
+        let outline = |face: &Face| &self.corners[face.label as usize];
         let emitting: Vec<usize> = (0..faces.len()).filter(|&n| faces[n].emits).collect();
         let Some(&last) = emitting.last() else {
             return;

@@ -135,7 +135,7 @@ pub(crate) trait Edges<A: Arith> {
 impl<A: Arith> Edges<A> for Face {
     #[inline(always)]
     fn hold(&self, cx: &mut A, point: [A::Real; 2]) -> A::Bool {
-        within_outline(cx, &self.edge_tests, self.disc.as_ref(), point)
+        within_outline(cx, &self.edge_tests, self.disc.as_deref(), point)
     }
 }
 

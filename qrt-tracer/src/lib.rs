@@ -64,6 +64,7 @@ mod checker;
 mod colours;
 mod compiled;
 mod convex;
+mod corners;
 mod crossing;
 mod face_table;
 mod frame;
@@ -93,6 +94,7 @@ pub use arith::{Arith, Axis, Coordinate, Named, Quantity, Segment, TracerPart, W
 pub use ball::StageBall;
 pub use ball_ray::BallRay;
 pub use camera::CameraStage;
+pub use corners::Corners;
 pub use crossing::{AxisPermuted, Crossing, between, cross, weighted};
 pub use face_table::{FaceTable, PrimaryHitGiven};
 pub use frame::trace;

@@ -62,12 +62,13 @@ pub(super) struct Lamps {
 }
 
 impl Lamps {
-    /// Collects the lamps. `surface_of` contains the surface of each face, in the order of `surfaces`.
+    /// Collects the lamps. `surface_of` contains the surface of each face, in the order of `surfaces`. Surfaces for
+    /// which `may_sample` is false sample lamps at no depth.
     /// The sun is the last lamp. None if nothing emits, or if an emitter's shape cannot be sampled; a scene
     /// that samples lamps has no emitter of that kind.
     pub(super) fn new(
         (geometry, smooth): (&StageGeometry, Option<&SmoothStage>),
-        surfaces: &[&Surface],
+        (surfaces, may_sample): (&[&Surface], impl Fn(&Surface) -> bool),
         surface_of: &[u32],
         places: &Places,
         sun: Option<&(Cone, Rgb)>,
@@ -76,8 +77,8 @@ impl Lamps {
         // Numbered as the geometry numbers its emitting faces.
         let polygons = geometry.faces.iter().filter(|face| face.emits);
         let polygons = polygons.map(|face| {
-            let corners = &*geometry.corners[face.label as usize];
-            let lamp = match (corners, face.disc) {
+            let corners = &geometry.corners[face.label as usize];
+            let lamp = match (corners, &face.disc) {
                 (&[a, b, c, d], Some(_)) => Lamp::disc([a, b, c, d]),
                 _ => Lamp::new(corners)?,
             };
@@ -132,15 +133,23 @@ impl Lamps {
         let mut reached: Vec<Vec<Reached>> = (0..surfaces.len()).map(reached).collect();
         let number = faces.len();
         let forms = |(lamp, face): (usize, &u32)| {
-            let by_surface = |surface: u32| reached[surface as usize][lamp].form;
+            let by_surface = |surface: u32| {
+                let surface = surface as usize;
+                may_sample(surfaces[surface]).then(|| reached[surface][lamp].form)
+            };
             places.lit_by(geometry, (*face, number), is_smooth, by_surface)
         };
         let mut forms: Vec<Vec<f64>> = faces.iter().enumerate().map(forms).collect();
         if let Some((cone, _)) = sun {
             // Spheres and smooth faces have all normals.
-            let of_side = |face: usize, side: f64| match geometry.frames.get(face) {
-                Some(frame) if !is_smooth(face as u32) => far_form(cone, frame.normal * side),
-                _ => far_form(cone, cone.axis),
+            let of_side = |face: usize, side: f64| {
+                let is_flat = face < geometry.corners.len() && !is_smooth(face as u32);
+                let normal = if is_flat {
+                    geometry.normal(face) * side
+                } else {
+                    cone.axis
+                };
+                far_form(cone, normal)
             };
             let mut by_surface = vec![0.0; surfaces.len()];
             for label in labels() {

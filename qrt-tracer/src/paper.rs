@@ -47,7 +47,7 @@ impl<A: Arith, const C: usize> NearestSearch<A> for Records<'_, C> {
             cx.enter(TracerPart::Primitive(label as usize));
             let (meets, distance) = stage.geometry.meet(cx, number, ray);
             let point = point_at(cx, ray, distance);
-            let normal = stage.normals[label as usize];
+            let normal = stage.normal(label as usize);
             let surface = f64::from(stage.surface_of[label as usize]);
             let mut record: Record<A> = [
                 distance, point[0], point[1], point[2], zero, zero, zero, zero,

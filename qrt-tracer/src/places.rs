@@ -10,6 +10,7 @@
 //! the tolerance of their edges, may carry more than the bound: machines then end with an error.
 
 use super::geometry::StageGeometry;
+use super::polygon::FaceFrame;
 use glam::DVec3;
 use qrt_scene::lights::strongest_form;
 
@@ -31,6 +32,8 @@ const SLACK: f64 = 1e-9;
 pub(crate) struct Places {
     /// By place: its surface.
     surfaces: Vec<u32>,
+    /// All places, if they are whole surfaces.
+    all: Vec<u32>,
     /// If places are sides of faces: by place, true if primary rays may meet it, and the places that
     /// rays from it may meet.
     seen: Option<(Vec<bool>, Vec<Vec<u32>>)>,
@@ -41,6 +44,7 @@ impl Places {
     pub(crate) fn surfaces(number: usize) -> Self {
         Self {
             surfaces: (0..number as u32).collect(),
+            all: (0..number as u32).collect(),
             seen: None,
         }
     }
@@ -60,27 +64,48 @@ impl Places {
         if faces > MOST_FACES || faces * lamps > MOST_LIT || !geometry.balls.is_empty() {
             return Self::surfaces(surfaces);
         }
-        let outlines = &geometry.corners;
-        let sides = 0..2 * outlines.len();
-        let from = |place: usize| -> Vec<u32> {
-            let leaves = |points: &[DVec3]| {
-                let across = transmits[place / 2] && before(geometry, place ^ 1, points);
-                across || before(geometry, place, points)
-            };
-            let meets = |to: &usize| {
-                leaves(&outlines[to / 2]) && before(geometry, *to, &outlines[place / 2])
-            };
-            let met = sides.clone().filter(meets);
-            met.map(|place| place as u32).collect()
-        };
+        // By face and other face: true if a corner of the other is in front of the face, and behind it.
+        let mut apart = Vec::with_capacity(faces * faces);
+        for face in 0..faces {
+            let FaceFrame { normal, centre, .. } = geometry.frame(face);
+            apart.extend(geometry.corners.iter().map(|points| {
+                let mut sides = [false; 2];
+                for point in points {
+                    let rise = normal.dot(*point - centre);
+                    sides[0] |= rise > SLACK;
+                    sides[1] |= -rise > SLACK;
+                }
+                sides
+            }));
+        }
+        let mut next = Vec::with_capacity(2 * faces);
+        for own in 0..faces {
+            let mut met = [(); 2].map(|()| Vec::with_capacity(faces));
+            for face in 0..faces {
+                let [front, back] = apart[own * faces + face];
+                let leaves = if transmits[own] {
+                    [front || back; 2]
+                } else {
+                    [front, back]
+                };
+                // The sides of the other face on which the own face has a corner.
+                let sides = apart[face * faces + own];
+                for (met, leaves) in met.iter_mut().zip(leaves) {
+                    for (side, is_met) in (2 * face as u32..).zip(sides) {
+                        if leaves && is_met {
+                            met.push(side);
+                        }
+                    }
+                }
+            }
+            next.extend(met);
+        }
         // A camera almost on a plane may see the face from either side.
         let first = |place| beyond(geometry, place, starts, -SLACK);
         Self {
-            surfaces: sides.clone().map(|place| surface_of[place / 2]).collect(),
-            seen: Some((
-                sides.clone().map(first).collect(),
-                sides.clone().map(from).collect(),
-            )),
+            surfaces: (0..2 * faces).map(|place| surface_of[place / 2]).collect(),
+            all: Vec::new(),
+            seen: Some(((0..2 * faces).map(first).collect(), next)),
         }
     }
 
@@ -99,12 +124,12 @@ impl Places {
         (0..self.len()).filter(|&place| self.seen.as_ref().is_none_or(|(first, _)| first[place]))
     }
 
-    /// The places that rays from `place` may meet.
-    pub(crate) fn next(&self, place: usize) -> impl Iterator<Item = usize> {
-        let listed = self.seen.as_ref().map(|(_, next)| &next[place]);
-        let all = if listed.is_some() { 0 } else { self.len() };
-        let listed = listed.into_iter().flatten().map(|&next| next as usize);
-        listed.chain(0..all)
+    /// The places that rays from `place` may meet, in order.
+    pub(crate) fn next(&self, place: usize) -> &[u32] {
+        match &self.seen {
+            Some((_, next)) => &next[place],
+            None => &self.all,
+        }
     }
 
     /// True if a face of this surface is in the place, on one side or on both.
@@ -129,22 +154,22 @@ impl Places {
     }
 
     /// An upper bound of `q / r^4` by place, for the light of face `lamp`, one of `lamps` lamps.
-    /// `is_smooth` is true for faces with interpolated normals; `by_surface` gives the bound of a surface.
+    /// `is_smooth` is true for faces with interpolated normals. `by_surface` gives the bound of a surface, or `None` if
+    /// the surface samples no lamps: its places have no bound.
     pub(crate) fn lit_by(
         &self,
         geometry: &StageGeometry,
         (lamp, lamps): (u32, usize),
         is_smooth: impl Fn(u32) -> bool,
-        by_surface: impl Fn(u32) -> f64,
+        by_surface: impl Fn(u32) -> Option<f64>,
     ) -> Vec<f64> {
         // Lamps are spheres only where places are whole surfaces.
-        let lamp = geometry
-            .corners
-            .get(lamp as usize)
-            .map_or(&[][..], Vec::as_slice);
+        let lamp = geometry.corners.get(lamp as usize).unwrap_or_default();
         let parts = (MOST_PARTS / (self.len() * lamps)).max(FEWEST_PARTS);
         let of = |place: usize| {
-            let known = by_surface(self.surfaces[place]);
+            let Some(known) = by_surface(self.surfaces[place]) else {
+                return f64::INFINITY;
+            };
             if self.seen.is_none() || known == 0.0 {
                 known
             } else if before(geometry, place, lamp) {
@@ -165,8 +190,8 @@ fn before(geometry: &StageGeometry, place: usize, points: &[DVec3]) -> bool {
 
 /// True if one of the points is farther than `least` from the plane, towards this side of the face.
 fn beyond(geometry: &StageGeometry, place: usize, points: &[DVec3], least: f64) -> bool {
-    let frame = &geometry.frames[place / 2];
-    let rise = |point: &DVec3| side(place) * frame.normal.dot(*point - frame.centre);
+    let FaceFrame { normal, centre, .. } = geometry.frame(place / 2);
+    let rise = |point: &DVec3| side(place) * normal.dot(*point - centre);
     points.iter().any(|point| rise(point) > least)
 }
 

@@ -41,7 +41,7 @@ pub struct DiscTest {
 pub(super) struct Outline {
     pub(super) edge_tests: Vec<EdgeTest>,
     /// The circle of a disc, whose square the edge tests bound.
-    pub(super) disc: Option<DiscTest>,
+    pub(super) disc: Option<Box<DiscTest>>,
 }
 
 impl Outline {
@@ -117,6 +117,25 @@ pub struct FaceFrame {
     pub normal: DVec3,
     /// The mean of the corners, in stage units.
     pub centre: DVec3,
+}
+
+impl FaceFrame {
+    /// The frame with this normal whose [row](FaceFrame::row) is `row`.
+    pub(super) fn new(normal: [f64; 3], row: &[f64; 9]) -> Self {
+        let part = |k: usize| DVec3::new(row[k], row[k + 1], row[k + 2]);
+        Self {
+            tangent: part(0),
+            bitangent: part(3),
+            normal: normal.into(),
+            centre: part(6),
+        }
+    }
+
+    /// The tangent, the bitangent and the centre.
+    pub(super) fn row(&self) -> [f64; 9] {
+        let (t, b, c) = (self.tangent, self.bitangent, self.centre);
+        [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
+    }
 }
 
 pub(super) fn plane_of(corners: &[DVec3], frame: &FaceFrame) -> Plane {

@@ -52,7 +52,7 @@ impl Refraction {
         let outlines = |wanted: &dyn Fn(usize) -> bool| -> Vec<&[DVec3]> {
             let labels = geometry.faces.iter().map(|face| face.label as usize);
             let labels = labels.filter(|&label| wanted(surface_of[label] as usize));
-            labels.map(|label| &*geometry.corners[label]).collect()
+            labels.map(|label| &geometry.corners[label]).collect()
         };
         let ior = |surface: usize| match &surfaces[surface].scatter {
             Scatter::Dielectric(glass) => Some(glass.ior),
@@ -102,6 +102,11 @@ impl Refraction {
     /// True if the refractions at surface number `surface` are in [`Refraction::most`].
     pub(super) fn is_of(&self, surface: u32) -> bool {
         self.known[surface as usize]
+    }
+
+    /// True if the refractions at some surface are in [`Refraction::most`].
+    pub(super) fn is_of_any(&self) -> bool {
+        self.known.contains(&true)
     }
 
     /// The greatest product of the weights of all refractions of a path, at surfaces with a known bound.

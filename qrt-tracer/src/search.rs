@@ -77,9 +77,10 @@ impl<'a> Search<'a> {
         let bodies = convex::bodies(geometry, &edges, &components, THICKNESS.min(0.25 * ulp));
         let camera = planner.plan(Start::Camera, &bodies, &components);
         let surfaces = planner.plan(Start::Surface, &bodies, &components);
-        let frames = geometry.frames.iter().zip(&geometry.plane_of);
-        let along = frames
-            .map(|(frame, &plane)| frame.normal[geometry.planes[plane as usize].axis] > 0.0)
+        let polygons = geometry.normals.iter().zip(&geometry.plane_of);
+        let along = polygons
+            .take(geometry.corners.len())
+            .map(|(normal, &plane)| normal[geometry.planes[plane as usize].axis] > 0.0)
             .collect();
         Self {
             geometry,
@@ -397,7 +398,7 @@ impl Search<'_> {
             let mut flipped = cx.truth(false);
             let along = |label: u32| self.along[label as usize];
             for (label, outline) in facet.faces.iter().rev() {
-                let disc = outline.disc.as_ref();
+                let disc = outline.disc.as_deref();
                 let inside = within_outline(cx, &outline.edge_tests, disc, point);
                 let label_here = cx.index(*label);
                 face = cx.select_index(inside, label_here, face);

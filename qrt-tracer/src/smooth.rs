@@ -46,7 +46,7 @@ impl SmoothStage {
         let (mut is_smooth, mut rows) = (vec![0; number], vec![[0.0; 15]; number]);
         let mut reach: f64 = 0.0;
         for &SmoothFace { polygon, normals } in faces {
-            let centre = geometry.frames[polygon].centre;
+            let centre = geometry.frame(polygon).centre;
             let corners = &geometry.corners[polygon];
             is_smooth[polygon] = 1;
             rows[polygon] = row(corners, normals, centre);

@@ -9,7 +9,6 @@ use super::geometry::StageGeometry;
 use super::lights::{Lamps, LightSampling, LightStage};
 use super::pixel_class::{PixelClass, PixelClasses};
 use super::places::Places;
-use super::polygon::FaceFrame;
 use super::ray::{self, Ray};
 use super::refraction::Refraction;
 use super::sky::SkyStage;
@@ -18,7 +17,7 @@ use super::sun::SunStage;
 use super::{Arith, bound};
 use glam::DVec3;
 use qrt_scene::valid::{Scatter, Surface, ValidScene};
-use qrt_scene::{DepthSampling, Material};
+use qrt_scene::{DepthSampling, Map, Material};
 use std::collections::HashSet;
 
 /// The relative amount by which rounding may take a path's colour over its bound.
@@ -39,10 +38,6 @@ pub struct Stage<const C: usize> {
     order: Vec<usize>,
     /// The number of the surface of each face.
     pub(crate) surface_of: Vec<u32>,
-    /// The unit normal of each face.
-    pub(crate) normals: Vec<[f64; 3]>,
-    /// The tangent, bitangent and centre of each face.
-    pub(crate) frames: Vec<[f64; 9]>,
     /// By face: the centre of its sphere and the inverse of the radius; zeros for a polygon. Empty
     /// without spheres.
     pub(crate) balls: Vec<[f64; 4]>,
@@ -149,9 +144,15 @@ impl<const C: usize> Stage<C> {
             let number = geometry.emitters as usize;
             let of = (&*surface_of, surfaces.len());
             let places = Places::sides(&geometry, of, &transmits, &starts, number);
+            // Without a density of its own, a user-defined BSDF may have that of a depth's map.
+            let has_map = (1..depths.len())
+                .any(|depth| sampling.light(depth).is_some() && depths[depth].map != Map::Auto);
+            let may_sample = |surface: &Surface| {
+                surface.samples_lights() || has_map && matches!(surface.scatter, Scatter::Custom(_))
+            };
             let lamps = Lamps::new(
                 (&geometry, smooth.as_ref()),
-                &surfaces,
+                (&surfaces, may_sample),
                 &surface_of,
                 &places,
                 sun.as_ref(),
@@ -216,21 +217,17 @@ impl<const C: usize> Stage<C> {
                     refraction,
                 )
             };
-            let (plain, by_solids) = (of(None), of(Some(&refraction)));
-            std::array::from_fn(|c| by_solids[c].min(plain[c]))
+            let plain = of(None);
+            if refraction.is_of_any() {
+                let by_solids = of(Some(&refraction));
+                std::array::from_fn(|c| by_solids[c].min(plain[c]))
+            } else {
+                plain
+            }
         };
         let sunlight = sun.as_ref().map_or([0.0; C], SunStage::irradiance);
         let limit = limit(bound, emitters.radiance(), sunlight);
         let balls = ball_rows(&geometry);
-        // The frame of a sphere depends on the hit.
-        let rows = geometry.frames.iter().map(frame_row);
-        let rows: Vec<[f64; 9]> = rows
-            .chain(geometry.balls.iter().map(|_| [0.0; 9]))
-            .collect();
-        let normals = geometry.frames.iter().map(|f| f.normal.to_array());
-        let normals: Vec<[f64; 3]> = normals
-            .chain(geometry.balls.iter().map(|_| [0.0; 3]))
-            .collect();
         let mut camera = CameraStage::new(&written.camera, written.film, &geometry, unit);
         let starts_on = geometry.planes_through(&starts);
         let lens = LensStage::new(written, &geometry);
@@ -245,8 +242,6 @@ impl<const C: usize> Stage<C> {
             order,
             film_bits: depths.first().map_or([0, 0], |primary| primary.bits),
             surface_of,
-            normals,
-            frames: rows,
             balls,
             smooth,
             checkers,
@@ -407,12 +402,12 @@ impl<const C: usize> Stage<C> {
 
     /// By label: the unit normal of a polygon's front; zeros for a sphere.
     pub fn normals(&self) -> &[[f64; 3]] {
-        &self.normals
+        &self.geometry.normals
     }
 
     /// The unit normal of a polygon's front, by its label; zeros for a sphere.
     pub fn normal(&self, face: usize) -> [f64; 3] {
-        self.normals[face]
+        self.geometry.normals[face]
     }
 
     /// The camera, whose rays are in the geometry's units.
@@ -452,11 +447,6 @@ fn limit<const C: usize>(bound: [f64; C], radiance: &[[f64; C]], irradiance: [f6
             .fold(irradiance[c], f64::max);
         bound[c] * (1.0 + ROUNDING) + FACING_AWAY * most
     })
-}
-
-fn frame_row(frame: &FaceFrame) -> [f64; 9] {
-    let (t, b, c) = (frame.tangent, frame.bitangent, frame.centre);
-    [t.x, t.y, t.z, b.x, b.y, b.z, c.x, c.y, c.z]
 }
 
 /// By face: the centre and the inverse of the radius of its sphere, or zeros; empty without spheres.

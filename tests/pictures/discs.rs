@@ -308,7 +308,11 @@ fn the_circle_is_exact_and_no_polygon() {
     let scene = small("{ uncompute: keep }", "none");
     let stage = Stage::<3>::rgb(&scene, PixelClass::MayMeetLamp);
     let geometry = stage.geometry();
-    let discs: Vec<_> = geometry.faces.iter().filter_map(|face| face.disc).collect();
+    let discs: Vec<_> = geometry
+        .faces
+        .iter()
+        .filter_map(|face| face.disc.as_ref())
+        .collect();
     assert_eq!(discs.len(), 3);
     let level = discs.iter().filter(|disc| disc.scale[0] == disc.scale[1]);
     for disc in level {

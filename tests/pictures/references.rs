@@ -4,6 +4,8 @@
 //! distance of a picture from its limit. With pictures A and B of two seeds, the error of their mean has
 //! the mean square `|A - B|^2 / 4`; the reference has its own standard error. The distance of a right
 //! picture from the reference is about the root of the sum of both, and that of a wrong one is not.
+//!
+//! `cargo bench --bench references` compares pictures of more paths.
 
 use super::independent::{self, Picture, Reference, SIDE, mean, rms_difference, traced};
 use qrt_scene::valid::ValidScene;
@@ -116,32 +118,32 @@ fn agrees_at(name: &str, depth: usize, path_bits: u32, promise: f64, asking: &[S
 
 #[test]
 fn the_cornell_box_agrees() {
-    agrees("cornell", 14, 0.015);
+    agrees("cornell", 12, 0.015);
 }
 
 #[test]
 fn the_cornell_box_of_the_classic_colours_agrees() {
-    agrees("cornell_mg", 14, 0.015);
+    agrees("cornell_mg", 12, 0.015);
 }
 
 #[test]
 fn the_mirror_wall_agrees() {
-    agrees("cornell_mirrorwall", 14, 0.03);
+    agrees("cornell_mirrorwall", 12, 0.03);
 }
 
 #[test]
 fn the_glass_block_agrees() {
-    agrees("cornell_glass", 14, 0.03);
+    agrees("cornell_glass", 12, 0.03);
 }
 
 #[test]
 fn the_ggx_block_agrees() {
-    agrees("cornell_ggx", 14, 0.03);
+    agrees("cornell_ggx", 12, 0.03);
 }
 
 #[test]
 fn the_floor_and_light_agree() {
-    agrees("floorlight", 14, 0.015);
+    agrees("floorlight", 12, 0.015);
 }
 
 #[test]
@@ -151,7 +153,7 @@ fn the_furnace_agrees() {
 
 #[test]
 fn the_mesh_agrees() {
-    agrees("torusknot8k", 13, 0.015);
+    agrees("torusknot8k", 12, 0.015);
 }
 
 #[test]
@@ -177,30 +179,30 @@ fn floor_furnace_and_mesh_agree_by_lamps() {
 
 #[test]
 fn spheres_under_a_sky_agree() {
-    agrees("marbles", 14, 0.01);
-    agrees("cut_spheres", 14, 0.01);
-    agrees("in_glass", 14, 0.01);
+    agrees("marbles", 12, 0.01);
+    agrees("cut_spheres", 12, 0.01);
+    agrees("in_glass", 12, 0.01);
 }
 
 #[test]
 fn boxes_and_coloured_glass_agree() {
-    agrees("bottles", 14, 0.01);
+    agrees("bottles", 12, 0.01);
 }
 
 #[test]
 fn checkers_agree() {
-    agrees("tiles", 14, 0.01);
+    agrees("tiles", 12, 0.01);
 }
 
 #[test]
 fn colours_of_vertices_agree() {
-    agrees("painted", 14, 0.02);
+    agrees("painted", 12, 0.02);
     agrees_by_lamps("painted", 0.05);
 }
 
 #[test]
 fn spheres_through_a_lens_agree() {
-    agrees("lensed", 14, 0.01);
+    agrees("lensed", 12, 0.01);
 }
 
 #[test]
@@ -219,7 +221,7 @@ fn discs_agree() {
 /// A sun and a sky, beside a lamp, with shadows on matte and glossy things. By chance the sun is met rarely.
 #[test]
 fn a_sun_agrees() {
-    agrees("sun", 15, 0.2);
+    agrees("sun", 13, 0.2);
     agrees_by_lamps("sun", 0.1);
 }
 
@@ -229,8 +231,8 @@ fn a_sun_agrees() {
 fn a_terrace_agrees() {
     for depth in 1..=6 {
         for lights in ["auto", "mis"] {
-            let asking = independent::asking(depth, 13, lights);
-            agrees_at("terrace", depth, 13, 0.1, &asking);
+            let asking = independent::asking(depth, 11, lights);
+            agrees_at("terrace", depth, 11, 0.1, &asking);
         }
     }
 }
@@ -252,7 +254,7 @@ fn metal_agrees() {
 /// exporter writes.
 #[test]
 fn a_room_in_blenders_form_agrees() {
-    agrees("blender_room", 12, 0.15);
+    agrees("blender_room", 11, 0.15);
     agrees_by_lamps("blender_room", 0.1);
 }
 

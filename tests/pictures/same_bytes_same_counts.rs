@@ -21,7 +21,7 @@ const KNOWN: &[(&str, u64, u64)] = &[
     ("cornell-mirror", 0x0e98_1448_6a0a_0d6a, 115_528),
     ("floor-and-light", 0xd962_41c3_e924_742b, 7852),
     ("furnace", 0xf515_ccf0_7a9b_b3e5, 38_964),
-    ("knot", 0x3836_c4ec_38b5_8590, 2_393_084),
+    ("knot", 0x3836_c4ec_38b5_8590, 2_207_606),
     ("small/corner", 0x09d4_5962_3a74_f2a5, 3790),
     ("small/lit-wall", 0x2fc5_6bc7_25a1_7625, 94),
     ("small/mirror", 0xa5a8_ad36_db7f_8525, 94),

@@ -72,7 +72,7 @@ pub fn plan(scene: &ValidScene, options: &PlanOptions<'_>) -> Result<Option<Plan
     let Some(accuracy) = scene.scene().accuracy else {
         return Ok(None);
     };
-    let estimator = options.estimator.unwrap_or(Counting::default().estimator);
+    let estimator = options.estimator.unwrap_or(Counting::default().estimator());
     options.workers.on_threads(|| {
         let pilot = Pilot::new(scene, accuracy, estimator, options)?;
         search::search(pilot).map(Some)

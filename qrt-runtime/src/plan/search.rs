@@ -192,7 +192,7 @@ fn cheapest(
         let counting = Counting {
             phase_bits,
             repetitions,
-            estimator: pilot.estimator,
+            estimator: Some(pilot.estimator),
             error,
             ..Counting::default()
         };
@@ -305,7 +305,7 @@ fn finish(
     parameters.precision.fraction = fraction;
     parameters.comparator.bits = pilot.comparator_bits;
     parameters.counting = counting;
-    parameters.counting.estimator = pilot.estimator;
+    parameters.counting.estimator = Some(pilot.estimator);
     let film = pilot.scene.scene().film;
     Ok(Plan {
         scene: valid(pilot.scene, parameters)?,

@@ -98,7 +98,7 @@ impl RenderOptions<'_> {
     pub(crate) fn counted_by(&self, scene: &Scene) -> Result<Estimator, RenderError> {
         match &self.own_estimator {
             Some(own) => own.check().map(|()| OWN_LIKE),
-            None => Ok(self.estimator.unwrap_or(scene.counting.estimator)),
+            None => Ok(self.estimator.unwrap_or(scene.counting.estimator())),
         }
     }
 

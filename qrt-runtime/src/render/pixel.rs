@@ -77,7 +77,7 @@ enum Levels {
 
 impl Levels {
     fn read_by(counting: &Counting) -> Self {
-        if counting.estimator.reads_levels() {
+        if counting.estimator().reads_levels() {
             Self::All
         } else if counting.reads_levels() {
             Self::Octaves
@@ -124,7 +124,7 @@ impl Pixels {
             return Err(EstimatorError::LevelBits(bits).into());
         }
         let counting = Counting {
-            estimator: estimate,
+            estimator: Some(estimate),
             ..scene.counting
         };
         let one_run = match options.colour {

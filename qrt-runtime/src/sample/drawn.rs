@@ -73,7 +73,7 @@ impl Draws<'_> {
         for &scale in counted {
             if let Entry::Vacant(entry) = estimators.entry(scale.to_bits()) {
                 let settings = Settings::of_channel(self.counting, scale)?;
-                entry.insert(estimator(self.counting.estimator, &settings)?);
+                entry.insert(estimator(self.counting.estimator(), &settings)?);
             }
         }
         let pairs = pixels.par_iter().zip(0..good.len());
@@ -108,7 +108,7 @@ impl Draws<'_> {
                         };
                         Device::new(problem, self.noise, &mut stream)?
                     }
-                    Countable::Levels(levels) if self.counting.estimator.reads_levels() => {
+                    Countable::Levels(levels) if self.counting.estimator().reads_levels() => {
                         Device::of_levels(&levels[place][channel], self.noise, &mut stream)?
                     }
                     Countable::Levels(levels) => {

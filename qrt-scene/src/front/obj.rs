@@ -196,7 +196,7 @@ fn is_continued(text: &str) -> bool {
 
 /// True if there is a comment in a text.
 fn has_comment(text: &str) -> bool {
-    text.split_whitespace().any(|word| word.starts_with('#'))
+    text.contains('#') && text.split_whitespace().any(|word| word.starts_with('#'))
 }
 
 /// Splits a statement into its keyword and the rest.
@@ -230,12 +230,17 @@ fn tokens(text: &str) -> impl Iterator<Item = &str> {
 /// The finite numbers of a statement, the first `most` of them.
 fn numbers(text: &str, most: usize, is_library: bool) -> Result<Vec<f64>, MeshFile> {
     let number = |text: &str| {
-        let (value, word) = (text.parse::<f64>(), text.to_owned());
-        match value {
-            Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => Err(MeshFile::NotFinite { word, is_library }),
-            Err(_) => Err(MeshFile::NotANumber { word, is_library }),
+        let parsed = text.parse::<f64>();
+        if let Ok(value) = parsed
+            && value.is_finite()
+        {
+            return Ok(value);
         }
+        let word = text.to_owned();
+        Err(match parsed {
+            Ok(_) => MeshFile::NotFinite { word, is_library },
+            Err(_) => MeshFile::NotANumber { word, is_library },
+        })
     };
     tokens(text).take(most).map(number).collect()
 }

@@ -10,9 +10,13 @@
 //!   small, and its rounding error times `2 b` too.
 //! - Numbers are multiplied by `G = 2^g`, one to two times `1 / r`, and squares by `G^2`, so that `h` has as
 //!   many bits as the number of a large sphere.
-//! - A direction of fixed-point numbers is not of unit length. With `e = d.d - 1`, of which eight more bits
-//!   are kept, `d.d p` is `p + e p`. Without it one of a hundred rays near a small sphere's edge
-//!   misses it wrongly.
+//! - A direction of fixed-point numbers is not of unit length. With `e = d.d - 1`, `d.d p` is `p + e p`.
+//!   Without it one of a hundred rays near a small sphere's edge misses it wrongly.
+//! - Centres are rounded as far as that moves no more hits than the ray's own numbers do, and `G c` has the
+//!   same bits in all its products: products with few constants of few bits share most of their sums.
+//! - An error of `G b` or of `G p` comes into `G^2 h^2` times `2 G b`, and one of `e` times `(G b)^2`. So
+//!   `G p` has about one guard bit for each bit that `G b` has before its point, `G b` two fewer, and `e` two
+//!   for each. Products of very small spheres have room for fewer.
 //! - Convex bodies that are disjoint divide a line into disjoint intervals, so the nearest of disjoint
 //!   spheres is the one with the least `b`. Spheres are in groups of disjoint ones, with one root a
 //!   group.
@@ -32,11 +36,46 @@ use qrt_scene::lights::polygon_distance;
 /// meets a sphere.
 const REACH: f64 = 2.0;
 
-/// The factor of `e`: eight more bits.
-const FINE: f64 = 256.0;
-
 /// The greatest `e`, in units in the last place.
 const SLACK: f64 = 64.0;
+
+/// Bits that a product of two numbers may have.
+const MOST_BITS: i32 = 60;
+
+/// The unit of `G^2 (c.c - r^2)` where it is multiplied by `e`, which is small.
+const STEP_OF_SQUARE: f64 = 1.0 / 16.0;
+
+/// Numbers of bits below the unit in the last place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Finer {
+    /// Those of `G p`.
+    foot: i32,
+    /// Those of `G b`.
+    along: i32,
+    /// Those of `e`: an even number.
+    excess: i32,
+}
+
+impl Finer {
+    /// The bits where `G b` is at most `most`, with `G = 2^steps`, within the widths of products.
+    fn new(most: f64, steps: i32, ulp: f64) -> Self {
+        let whole = most.log2().round().max(0.0) as i32;
+        let fraction = -ulp.log2().round() as i32;
+        let room = (MOST_BITS / 2 - fraction - steps - 2).max(0);
+        let foot = (whole - 1).clamp(0, room);
+        // `e` multiplies `p`, and the square of `G p`: about `2 (steps + foot) + 12` bits.
+        let beside_number = MOST_BITS - 2 * (fraction + 1);
+        let beside_square = MOST_BITS - 12 - 2 * (steps + foot);
+        Self {
+            foot,
+            along: (whole - 3).clamp(0, room),
+            excess: (2 * whole).clamp(0, beside_number.min(beside_square).max(LEAST_EXCESS)),
+        }
+    }
+}
+
+/// Bits of `e` that a fraction of many bits leaves room for.
+const LEAST_EXCESS: i32 = 8;
 
 /// Spheres that are disjoint, and of one size within a factor of two.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +94,10 @@ impl Group {
     fn most_along(&self) -> f64 {
         let centres = self.balls.iter().map(|ball| ball.centre.length());
         (centres.fold(0.0, f64::max) + 0.01) * 1.01 * scale(self.steps)
+    }
+
+    fn finer(&self, ulp: f64) -> Finer {
+        Finer::new(self.most_along(), self.steps, ulp)
     }
 }
 
@@ -100,7 +143,7 @@ impl BallPlan {
                 (apart - other.radius).abs() < ball.radius - ulp
             };
             let cuts =
-                |outline: &Vec<DVec3>| polygon_distance(outline, ball.centre) < ball.radius - ulp;
+                |outline: &[DVec3]| polygon_distance(outline, ball.centre) < ball.radius - ulp;
             let seen_from_inside = ball_holds(ball, eyes, ulp);
             let from_inside = seen_from_inside
                 || start == Start::Surface
@@ -113,7 +156,7 @@ impl BallPlan {
             };
             let to_inside = others().any(|other| other.emitter.is_some() && is_entered(other))
                 || (0..)
-                    .zip(&geometry.corners)
+                    .zip(geometry.corners.iter())
                     .any(|(n, corners)| cuts(corners) && shines(n));
             let steps = 1 - ball.radius.log2().ceil() as i32;
             let fits = |group: &&mut Group| {
@@ -158,7 +201,7 @@ impl BallPlan {
         shared: &Shared<A>,
         ray: &Ray<A>,
     ) -> (A::Bool, Running<A>) {
-        let scaled = shared.scaled(cx, group.steps);
+        let scaled = shared.scaled(cx, group.steps, group.finer(self.ulp));
         let far = group.most_along() + self.ulp;
         let mut along = cx.real(far);
         let mut square = cx.real(0.0);
@@ -225,7 +268,7 @@ impl BallPlan {
         }
         let shared = self.shared(cx, ray.origin, unit);
         for group in &self.groups {
-            let scaled = shared.scaled(cx, group.steps);
+            let scaled = shared.scaled(cx, group.steps, group.finer(self.ulp));
             let end = cx.scale(length, scale(group.steps));
             let end = math!(cx, scaled.start + end);
             for ball in &group.balls {
@@ -254,14 +297,14 @@ impl BallPlan {
 
     /// The numbers of a ray that all spheres share.
     fn shared<A: Arith>(&self, cx: &mut A, origin: Vector<A>, direction: Vector<A>) -> Shared<A> {
-        let steps = self
-            .groups
-            .iter()
-            .map(|group| group.steps)
-            .max()
-            .unwrap_or(0);
-        let (up, fine) = (scale(steps), FINE.sqrt());
-        let mut excess = cx.real(-FINE);
+        let groups = || self.groups.iter();
+        let steps = groups().map(|group| group.steps).max().unwrap_or(0);
+        let most = groups().map(Group::most_along).fold(0.0, f64::max);
+        let finer = Finer::new(most, steps, self.ulp);
+        let steps = steps + finer.foot;
+        let (up, fine) = (scale(steps), scale(finer.excess / 2));
+        let coarse = scale(-finer.excess);
+        let mut excess = cx.real(-scale(finer.excess));
         let mut along = cx.real(0.0);
         let mut foot = origin;
         for axis in 0..3 {
@@ -270,16 +313,16 @@ impl BallPlan {
             foot[axis] = cx.scale(origin[axis], up);
             along = math!(cx, along + foot[axis] * direction[axis]);
         }
-        let slack = SLACK * FINE * self.ulp;
+        let slack = SLACK * scale(finer.excess) * self.ulp;
         let excess = math!(cx, known(excess, -slack, slack));
         let grown = |cx: &mut A, number: A::Real| {
-            let more = math!(cx, scale(number * excess, 1.0 / FINE));
+            let more = math!(cx, scale(number * excess, coarse));
             math!(cx, number + more)
         };
         let far = self.farthest * 1.01 * up;
         let along = math!(cx, known(along, -far, far));
         // Over `d.d`, up to the square of `e`.
-        let less = math!(cx, scale(along * excess, 1.0 / FINE));
+        let less = math!(cx, scale(along * excess, coarse));
         let along = math!(cx, along - less);
         let mut near = cx.truth(true);
         for axis in 0..3 {
@@ -303,6 +346,8 @@ impl BallPlan {
             near,
             excess,
             steps,
+            finer,
+            step: 2.0 * self.ulp,
         }
     }
 }
@@ -319,7 +364,7 @@ fn ball_holds(ball: &StageBall, eyes: &[DVec3], ulp: f64) -> bool {
     !eyes.is_empty() && ball.outside(ball.centre.clamp(low, high)) < ulp
 }
 
-/// The numbers of a ray that all spheres share, times powers of `G`.
+/// The numbers of a ray that all spheres share, times powers of a `G`.
 struct Shared<A: Arith> {
     direction: Vector<A>,
     /// `G d.d p`
@@ -330,45 +375,58 @@ struct Shared<A: Arith> {
     start: A::Real,
     /// False if the line is so far away that it meets no sphere.
     near: A::Bool,
-    /// `e`, times [`FINE`].
+    /// `e`, times a power of two.
     excess: A::Real,
     /// `g`
     steps: i32,
+    finer: Finer,
+    /// The unit to which `G c` is rounded. The ray's own rounding moves a hit further than that.
+    step: f64,
 }
 
 impl<A: Arith> Shared<A> {
-    /// The same for spheres with another `G`, which is not greater.
-    fn scaled(&self, cx: &mut A, steps: i32) -> Self {
+    /// The numbers of spheres with `G = 2^steps`, which is at most the `G` of all. The foot keeps the finer
+    /// bits that these spheres need.
+    fn scaled(&self, cx: &mut A, steps: i32, finer: Finer) -> Self {
         let factor = scale(steps - self.steps);
+        let up = scale(steps + finer.foot - self.steps);
         let [x, y, z] = self.foot;
         Self {
             direction: self.direction,
-            foot: [
-                cx.scale(x, factor),
-                cx.scale(y, factor),
-                cx.scale(z, factor),
-            ],
+            foot: [cx.scale(x, up), cx.scale(y, up), cx.scale(z, up)],
             square: cx.scale(self.square, factor * factor),
             start: cx.scale(self.start, factor),
             near: self.near,
             excess: self.excess,
             steps,
+            finer: Finer {
+                excess: self.finer.excess,
+                ..finer
+            },
+            step: self.step,
         }
     }
 
     /// The line of the ray beside a sphere. `most` bounds `G |b|`.
     fn line(&self, cx: &mut A, ball: &StageBall, most: f64) -> Line<A> {
         let up = scale(self.steps);
-        let c = ball.centre.to_array();
-        let constant = (ball.centre.length_squared() - ball.radius * ball.radius) * up * up;
-        let [x, y, z] = [0, 1, 2].map(|k| cx.scale(self.direction[k], c[k] * up));
-        let along = math!(cx, known(x + y + z, -most, most));
-        let [x, y, z] = [0, 1, 2].map(|k| cx.scale(self.foot[k], 2.0 * c[k] * up));
-        let excess = cx.scale(self.excess, constant / FINE);
+        let centre = ball.centre * up;
+        let centre = (centre / self.step).round() * self.step;
+        let c = centre.to_array();
+        let constant = centre.length_squared() - (ball.radius * up).powi(2);
+        let coarse = (constant / STEP_OF_SQUARE).round() * STEP_OF_SQUARE;
+        let fine = scale(self.finer.along);
+        let [x, y, z] = [0, 1, 2].map(|k| cx.scale(self.direction[k], c[k] * fine));
+        let along = math!(cx, known(x + y + z, -most * fine, most * fine));
+        let square = math!(cx, scale(along * along, scale(-2 * self.finer.along)));
+        let along = cx.scale(along, 1.0 / fine);
+        let twice = scale(1 - self.finer.foot);
+        let [x, y, z] = [0, 1, 2].map(|k| cx.scale(self.foot[k], c[k] * twice));
+        let excess = cx.scale(self.excess, coarse * scale(-self.finer.excess));
         let power = math!(cx, (self.square - (x + y + z)) + (excess + real(constant)));
         Line {
             along,
-            square: math!(cx, along * along - power),
+            square: math!(cx, square - power),
         }
     }
 

@@ -303,6 +303,8 @@ impl MeshPlan {
         if cost <= chosen.len() * BY_EDGES + slots * SLOT {
             return Self::default();
         }
+        // An encoder takes the fewest CNOTs if its entries count upwards.
+        chosen.sort_unstable_by_key(|(place, _)| geometry.faces[*place].label);
         Self {
             slots,
             ..Self::with_faces(planner, start, &chosen)
@@ -423,7 +425,7 @@ impl SlotTable {
         for label in labels {
             let number = geometry.plane_of[label as usize];
             let plane = &geometry.planes[number as usize];
-            let along = geometry.frames[label as usize].normal[plane.axis] > 0.0;
+            let along = geometry.normals[label as usize][plane.axis] > 0.0;
             while row <= label {
                 table.axes.push(plane.axis as u32);
                 table
@@ -483,7 +485,7 @@ impl Planner<'_> {
         {
             return Facing::Both;
         }
-        let outline = |&place: &usize| &*geometry.corners[label(place)];
+        let outline = |&place: &usize| &geometry.corners[label(place)];
         let corners = || component.iter().flat_map(outline).copied();
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);

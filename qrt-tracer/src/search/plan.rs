@@ -438,10 +438,10 @@ impl Planner<'_> {
             let label = self.label(place);
             let face = &self.geometry.faces[place];
             if face.disc.is_some() {
-                let (edge_tests, disc) = (face.edge_tests.clone(), face.disc);
+                let (edge_tests, disc) = (face.edge_tests.clone(), face.disc.clone());
                 return (label, Outline { edge_tests, disc });
             }
-            let centre = self.geometry.frames[label as usize].centre;
+            let centre = self.geometry.frame(label as usize).centre;
             let edges = edges.iter().filter(|_| !(whole && Some(k) == last));
             let tolerance = self.geometry.tolerance;
             let tests =

@@ -283,7 +283,7 @@ impl Comparison<'_> {
         let cx = &mut Scalar::default();
         let asked = geometry.nearest(cx, ray, true);
         let found = self.search.nearest(cx, ray, true);
-        let normal = DVec3::from(self.stage.normals[asked.face as usize]);
+        let normal = DVec3::from(self.stage.normals()[asked.face as usize]);
         let front = normal.dot(ray.direction.into()) < 0.0;
         let told = |hit: &Hit<Scalar>, front| hit.found.then_some((hit.face, hit.distance, front));
         let (asked, found) = (told(&asked, front), told(&found, found.front == Some(true)));
@@ -351,7 +351,7 @@ impl Comparison<'_> {
                 let Some((face, distance)) = self.nearest(&ray) else {
                     break;
                 };
-                let normal = DVec3::from(self.stage.normals[face as usize]);
+                let normal = DVec3::from(self.stage.normals()[face as usize]);
                 let viewer = -normal.dot(ray.direction.into()).signum() * normal;
                 let mut direction = self.chance.direction();
                 direction *= direction.dot(viewer).signum();
@@ -362,7 +362,7 @@ impl Comparison<'_> {
                 if transmits && self.chance.next() < 0.7 {
                     direction = -direction;
                 }
-                let frame = &self.stage.frames[face as usize];
+                let frame = &self.stage.geometry.frames[face as usize];
                 ray = Ray {
                     origin: start(&mut Scalar::default(), &ray, distance, frame),
                     direction: direction.to_array(),

@@ -18,7 +18,7 @@ fn run(
         phase_bits: bits,
         repetitions,
         window: Window::Sine,
-        estimator: name,
+        estimator: Some(name),
         strata: None,
         error: None,
     };

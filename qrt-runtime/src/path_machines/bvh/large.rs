@@ -69,7 +69,7 @@ impl LargeFace {
             form: on.form,
             offset: on.offset,
             edge_tests: geometry.faces[rank as usize].edge_tests.clone(),
-            disc: geometry.faces[rank as usize].disc,
+            disc: geometry.faces[rank as usize].disc.as_deref().copied(),
             blocks: !passed || beside.any(|face| face.covers.is_some()),
         }
     }

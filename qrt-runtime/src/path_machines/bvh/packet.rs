@@ -53,7 +53,7 @@ impl DiscColumns {
         let mut has_disc = false;
         for (lane, &rank) in ranks.iter().enumerate() {
             let face = &geometry.faces[rank as usize];
-            let Some(disc) = face.disc else {
+            let Some(disc) = &face.disc else {
                 continue;
             };
             has_disc = true;

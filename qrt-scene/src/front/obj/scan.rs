@@ -7,7 +7,7 @@ use crate::scene::meshes::{FilePlace, Wanted};
 use glam::DVec3;
 use qrt_syntax::{MeshFile, nearest};
 use std::borrow::Cow;
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -34,8 +34,10 @@ pub(super) struct Scanner<'a> {
     counts: [i64; 3],
     /// The greatest index of each kind so far, and its line: a vertex may follow its face.
     greatest: [(i64, usize); 3],
-    /// The statement that is being read.
-    pending: VecDeque<u8>,
+    /// The statements that are being read.
+    pending: Vec<u8>,
+    /// Number of bytes of `pending` that have been read.
+    read: usize,
     /// The error: the reader of this stream sees only that there is one.
     pub(super) fault: Option<FileError>,
     pub(super) faces: Vec<Face>,
@@ -84,20 +86,17 @@ pub(super) enum OfFace {
 
 impl Read for Scanner<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let mut read = Ok(());
-        while self.pending.is_empty() && read.is_ok() {
-            let Some((line, statement)) = self.statements.next() else {
-                read = self.finish();
-                break;
-            };
-            let checked = self.statement(line, &statement);
-            read = checked.map_err(|what| FileError::new(what, self.path, line));
+        if self.read == self.pending.len() {
+            self.pending.clear();
+            self.read = 0;
+            if let Err(fault) = self.fill(buffer.len()) {
+                self.fault = Some(fault);
+                return Err(io::ErrorKind::InvalidData.into());
+            }
         }
-        if let Err(fault) = read {
-            self.fault = Some(fault);
-            return Err(io::ErrorKind::InvalidData.into());
-        }
-        self.pending.read(buffer)
+        let count = (&self.pending[self.read..]).read(buffer)?;
+        self.read += count;
+        Ok(count)
     }
 }
 
@@ -111,7 +110,8 @@ impl<'a> Scanner<'a> {
             triangles: 0,
             counts: [0; 3],
             greatest: [(0, 0); 3],
-            pending: VecDeque::new(),
+            pending: Vec::new(),
+            read: 0,
             fault: None,
             faces: Vec::new(),
             colours: Vec::new(),
@@ -126,6 +126,18 @@ impl<'a> Scanner<'a> {
             uses: Vec::new(),
             libraries: Vec::new(),
         }
+    }
+
+    /// Checks statements until `size` bytes are pending, or the file ends.
+    fn fill(&mut self, size: usize) -> Result<(), FileError> {
+        while self.pending.len() < size {
+            let Some((line, statement)) = self.statements.next() else {
+                return self.finish();
+            };
+            let checked = self.statement(line, &statement);
+            checked.map_err(|what| FileError::new(what, self.path, line))?;
+        }
+        Ok(())
     }
 
     fn statement(&mut self, line: usize, statement: &str) -> Result<(), MeshFile> {
@@ -164,12 +176,12 @@ impl<'a> Scanner<'a> {
     }
 
     fn hand_on<'w>(&mut self, keyword: &str, words: impl Iterator<Item = &'w str>) {
-        self.pending.extend(keyword.as_bytes());
+        self.pending.extend_from_slice(keyword.as_bytes());
         for word in words {
-            self.pending.push_back(b' ');
-            self.pending.extend(word.as_bytes());
+            self.pending.push(b' ');
+            self.pending.extend_from_slice(word.as_bytes());
         }
-        self.pending.push_back(b'\n');
+        self.pending.push(b'\n');
     }
 
     /// Reads `v x y z`, `v x y z w`, `v x y z r g b` or `v x y z r g b a`. Colours are dropped unless they

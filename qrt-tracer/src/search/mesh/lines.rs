@@ -169,17 +169,25 @@ impl Random {
     }
 }
 
-/// The number of slots for the faces of `plan`: [`SPARE`] more than the most that one of many lines may meet.
+/// Most faces of meshes whose slots suffice for all tried lines.
+const LARGE: usize = 1 << 14;
+
+/// Number of lines through larger meshes that may meet more faces than there are slots: one in a thousand. A slot takes
+/// about a gate for each face, and a line along a surface of small faces may meet hundreds.
+const GRAZING: usize = LINES as usize / 1024;
+
+/// The number of slots for the faces of `plan`: [`SPARE`] more than the most that one of many lines may meet. Through
+/// more than [`LARGE`] faces, the [`GRAZING`] lines that meet the most do not count.
 /// The lines pass through points and corners of the faces, and through starts of rays. Lines of an
 /// orthographic camera have its direction.
 pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Start) -> usize {
     let geometry = planner.geometry;
-    let outline = |label: u32| &*geometry.corners[label as usize];
+    let outline = |label: u32| &geometry.corners[label as usize];
     let tree = Tree::new(plan, plan.labels().map(outline).collect(), planner.ulp);
     let [low, high] = planner.eye_box();
     let starts = geometry.faces.len() + geometry.balls.len();
     let mut random = Random(0);
-    let mut most = 0;
+    let mut counts = Vec::with_capacity(LINES as usize);
     for number in 0..LINES {
         let mut any = |count: usize| (random.next() % count as u64) as usize;
         let aimed = tree.outlines[any(tree.outlines.len())];
@@ -207,9 +215,12 @@ pub(super) fn most_crossings(plan: &MeshPlan, planner: &Planner<'_>, start: Star
         };
         let (origin, direction) = (through, direction.normalize_or_zero());
         if direction != DVec3::ZERO {
-            most = most.max(tree.crossings(origin, direction));
+            counts.push(tree.crossings(origin, direction));
         }
     }
+    counts.sort_unstable();
+    let skipped = if plan.faces.len() > LARGE { GRAZING } else { 0 };
+    let most = counts.iter().rev().nth(skipped).copied().unwrap_or(0);
     (most + SPARE).min(plan.faces.len())
 }
 

@@ -97,7 +97,7 @@ fn a_disc_is_the_points_within_a_circle() {
                     continue;
                 }
                 let corners = &geometry.corners[face.label as usize];
-                let frame = &geometry.frames[face.label as usize];
+                let frame = &geometry.frame(face.label as usize);
                 let radius = 0.5 * corners[0].distance(corners[1]);
                 let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
                 let fall = direction.dot(frame.normal);
