@@ -369,7 +369,7 @@ pub use qrt_scene::valid::{InvalidScene, ValidScene, validate};
 /// let builder: SceneBuilder = Scene::builder("floor")
 ///     .material("floor", Lambertian { albedo: [0.5; 3].into() })
 ///     .triangle("floor", [[-1., 0., 1.], [1., 0., 1.], [0., 0., -1.]])
-///     .counting(Counting { estimator: Estimator::Sine, ..Counting::default() });
+///     .counting(Counting { estimator: Some(Estimator::Sine), ..Counting::default() });
 /// let mut scene: Scene = builder.build();
 /// scene.film.width = 32;
 /// assert!(scene.to_yaml().contains("film: { width: 32, height: 64 }"));

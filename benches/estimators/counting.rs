@@ -62,7 +62,7 @@ fn settings(estimator: Estimator, phase_bits: u32, repetitions: u32) -> Counting
         phase_bits,
         repetitions,
         window: Window::Sine,
-        estimator,
+        estimator: Some(estimator),
         strata: None,
         error: None,
     }

@@ -54,7 +54,7 @@ impl Case {
             phase_bits,
             repetitions,
             window: Window::Sine,
-            estimator: self.name,
+            estimator: Some(self.name),
             strata: None,
             error: None,
         };

@@ -24,7 +24,7 @@ fn settings(phase_bits: u32) -> Settings {
         phase_bits,
         repetitions: 1,
         window: Window::Rect,
-        estimator: Estimator::Qss,
+        estimator: Some(Estimator::Qss),
         strata: None,
         error: None,
     };

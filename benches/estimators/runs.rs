@@ -43,7 +43,7 @@ impl Run {
             phase_bits: self.bits,
             repetitions: self.repetitions,
             window: Window::Sine,
-            estimator: self.name,
+            estimator: Some(self.name),
             strata: None,
             error: None,
         };

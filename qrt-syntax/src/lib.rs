@@ -26,23 +26,23 @@
 
 #![forbid(unsafe_code)]
 
-mod called;
 pub mod codes;
 pub mod expr;
 mod kinds;
 mod line;
 mod name;
 mod number;
+mod other_names;
 mod path;
 mod problem;
 mod report;
 pub mod tree;
 
-pub use called::{called, meant_by};
 pub use kinds::*;
 pub use line::{line_after, line_starts};
 pub use name::{listed, nearest};
 pub use number::{grouped, number};
+pub use other_names::{called, meant_by};
 pub use path::{Path, Place, Step};
 pub use problem::{At, Problem, Problems};
 pub use report::{Location, MOST, Report, Reported, Source};

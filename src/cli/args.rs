@@ -42,8 +42,8 @@ impl SceneArgs {
         load(&self.scene, &self.sets, &self.allow_files, self.memory())
     }
 
-    /// Reads the scene and checks it. If it is refused, `estimator` takes the place of its own: other keys of
-    /// `counting` may go with that one alone.
+    /// Reads the scene and checks it. If it is refused, reads it again with `estimator` in the place of its own: keys
+    /// such as `counting.error` may suit that one alone.
     pub(crate) fn load_with(&self, estimator: Option<&str>) -> Result<Loaded, Failure> {
         let loaded = self.load();
         let Some(name) = estimator.filter(|_| loaded.is_err()) else {

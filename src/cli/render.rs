@@ -284,6 +284,10 @@ fn render(args: &RenderArgs, cancel: &AtomicBool, files: &mut Vec<PathBuf>) -> R
     };
     let prepared = prepared(&loaded, &options, args.quiet)?;
     announce(&prepared, args, target, &options)?;
+    let counts = options.visibility == Visibility::Classical && args.estimator.is_none();
+    if scene.is_counted_by_size() && counts && !args.quiet {
+        note_estimator(scene);
+    }
     bar.set_up();
     let (made, checkpoint) = match target {
         Target::Picture(encoding) => {
@@ -429,8 +433,22 @@ fn note_grey(fraction: f64, options: &RenderOptions<'_>, prepared: &Prepared<'_>
          here {}, and where no measured path is good, `--colour one-run` knows no colour; take {enough}an \
          estimator that measures until it knows enough, such as `--estimator {}`",
         100.0 * fraction,
-        options.estimator.unwrap_or(counting.estimator),
+        options.estimator.unwrap_or(counting.estimator()),
         counting.repetitions,
+        Estimator::Auto,
+    ));
+}
+
+/// Tells by which estimator a large picture is counted if its scene has none.
+fn note_estimator(scene: &ValidScene) {
+    let film = scene.scene().film;
+    terminal::note(&format!(
+        "the scene has no `counting.estimator`: a film of {} x {} pixels is counted by `{}`, which is simulated \
+         fastest; `--estimator {}` needs fewer queries for the same error, and simulating its measurements takes about \
+         30 times as long",
+        film.width,
+        film.height,
+        scene.scene().counting.estimator(),
         Estimator::Auto,
     ));
 }
@@ -595,7 +613,7 @@ sampling: { path_bits: 5 }
             extrapolated: false,
             fraction: None,
             comparator_bits: parameters.comparator.bits,
-            estimator: parameters.counting.estimator,
+            estimator: parameters.counting.estimator(),
             phase_bits: parameters.counting.phase_bits,
             repetitions: parameters.counting.repetitions,
             error: None,

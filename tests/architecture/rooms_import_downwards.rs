@@ -93,8 +93,17 @@ const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-syntax/src",
         &[
-            "line", "name", "number", "path", "tree", "called", "codes", "kinds", "problem",
-            "report", "expr",
+            "line",
+            "name",
+            "number",
+            "path",
+            "tree",
+            "other_names",
+            "codes",
+            "kinds",
+            "problem",
+            "report",
+            "expr",
         ],
     ),
     (
@@ -106,6 +115,7 @@ const MODULES: &[(&str, &[&str])] = &[
     (
         "qrt-tracer/src",
         &[
+            "corners",
             "polygon",
             "ball",
             "radiance",

@@ -82,6 +82,38 @@ fn two_runs_give_the_same_files() {
 }
 
 #[test]
+fn a_large_picture_without_an_estimator_tells_by_which_it_is_counted() {
+    let counting = BOX.lines().find(|line| line.starts_with("counting:"));
+    let text = BOX.replace(counting.unwrap(), "").replace(
+        "film: { width: 13, height: 11 }",
+        "film: { width: 65, height: 64 }",
+    );
+    let folder = Folder::with("box.yaml", &text);
+    let render = |more: &[&str]| {
+        let set = ["render", "box.yaml", "--set", "sampling.path_bits=2"];
+        let output = folder.qrt(&[&set[..], more].concat());
+        assert!(output.status.success(), "{more:?}");
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
+    };
+    let note = "no `counting.estimator`: a film of 65 x 64 pixels is counted by `sine`";
+    let [said, notes] = render(&[]);
+    assert!(said.contains("estimator sine"), "{said}");
+    assert!(notes.contains(note), "{notes}");
+    for more in [
+        &["--estimator", "sine"][..],
+        &["--set", "counting.estimator=sine"],
+        &["--visibility", "exhaustive", "--model", "fixed"],
+    ] {
+        assert!(!render(more)[1].contains("is counted by"), "{more:?}");
+    }
+    let small = render(&["--set", "film.width=5", "--set", "film.height=4"]);
+    assert!(
+        small[0].contains("estimator auto") && !small[1].contains("is counted by"),
+        "{small:?}"
+    );
+}
+
+#[test]
 fn counts_are_what_the_picture_shows() {
     let folder = folder();
     for (estimator, crop) in [("exact", None), ("sine", Some("2,3,5,4"))] {

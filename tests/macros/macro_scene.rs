@@ -17,7 +17,7 @@ qrt! {
         material cloth: bsdf {
             map: |u, v| (sqrt(u) * cos(2 * pi * v), sqrt(u) * sin(2 * pi * v), sqrt(1 - u)),
             jacobian: auto,
-            value: 0.5 / pi * (1 + 0.3 * cos_i * cos_o) * GREY,
+            value: 0.5 / pi * (1 + 0.3 * cos_i * cos_o) * GREY * (1 + 0.1 * sin(x + 2 * y - z)),
         },
         /// The floor is two strips.
         for i in 0..2 {
@@ -49,7 +49,7 @@ materials:
   cloth:
     bsdf:
       map: ["sqrt(u)*cos(2*pi*v)", "sqrt(u)*sin(2*pi*v)", "sqrt(1-u)"]
-      value: ["0.5/pi*(1+0.3*cos_i*cos_o)*0.75"]
+      value: ["0.5/pi*(1+0.3*cos_i*cos_o)*0.75*(1+0.1*sin(x+2*y-z))"]
 geometry:
   - quad: { vertices: [[-2, 0, 2], [0, 0, 2], [0, 0, -2], [-2, 0, -2]], material: grey }
   - quad: { vertices: [[0, 0, 2], [2, 0, 2], [2, 0, -2], [0, 0, -2]], material: grey }

@@ -59,7 +59,7 @@ fn every_key_is_read() {
         (scene.comparator.bits, scene.comparator.at.name()),
         (12, "edges")
     );
-    assert_eq!(scene.counting.estimator, Estimator::AdaptiveBayes);
+    assert_eq!(scene.counting.estimator(), Estimator::AdaptiveBayes);
     assert_eq!(
         (scene.counting.phase_bits, scene.counting.repetitions),
         (9, 3)
@@ -100,7 +100,7 @@ fn defaults_are_those_of_the_manual() {
     assert_eq!(
         (
             scene.counting.window.name(),
-            scene.counting.estimator.name()
+            scene.counting.estimator().name()
         ),
         ("sine", "auto")
     );
@@ -150,7 +150,7 @@ fn overrides_change_what_they_name() {
     assert_eq!(after.sampling.path_bits, 10);
     let text = after.to_yaml();
     assert!(text.contains("0.698859, 0.25]"), "{text}");
-    assert_eq!(after.counting.estimator, Estimator::Paper);
+    assert_eq!(after.counting.estimator(), Estimator::Paper);
     assert_eq!(
         (after.comparator.at.name(), after.comparator.bits),
         ("edges", 10)

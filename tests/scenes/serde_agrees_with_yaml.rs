@@ -90,7 +90,7 @@ fn parts_are_read_and_written_by_themselves() {
     assert_eq!(serde_json::from_str::<Material>(&text).unwrap(), matte);
     let counting: Counting =
         serde_yaml::from_str("{ estimator: monte-carlo, strata: auto }").unwrap();
-    assert_eq!(counting.estimator, Estimator::MonteCarlo);
+    assert_eq!(counting.estimator(), Estimator::MonteCarlo);
     assert_eq!((counting.strata, counting.phase_bits), (None, 8));
     let depth: DepthSampling = serde_yaml::from_str("bits: [3, 4]").unwrap();
     assert_eq!(depth, DepthSampling::of_bits([3, 4]));

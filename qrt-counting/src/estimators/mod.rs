@@ -14,8 +14,6 @@
 
 mod abrams_williams;
 mod bayes;
-#[cfg(test)]
-mod budgets;
 mod clopper_pearson;
 mod coin;
 mod device;
@@ -30,8 +28,6 @@ mod normal;
 mod posterior_mean;
 mod qss;
 mod quantum_coin;
-#[cfg(test)]
-mod rendering_tests;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -162,7 +158,7 @@ pub fn estimator(
 
 /// Runs the estimator called `name` once on a device without noise.
 ///
-/// `counting` is a scene's counting block, whose error is that of the amplitude: see
+/// `counting` is a scene's counting block. Its `error` is taken as that of the amplitude, and not in radiance: see
 /// [`Settings::of_channel`].
 ///
 /// # Errors
@@ -173,7 +169,7 @@ pub fn estimator(
 /// use qrt_counting::{estimators::{CountingProblem, estimate}, random::Stream};
 /// use qrt_scene::{Counting, Estimator};
 /// let counting = Counting {
-///     phase_bits: 8, repetitions: 3, estimator: Estimator::Paper, ..Counting::default()
+///     phase_bits: 8, repetitions: 3, estimator: Some(Estimator::Paper), ..Counting::default()
 /// };
 /// let problem = CountingProblem { good: 300, total: 1000 };
 /// let found = estimate(Estimator::Paper, &counting, problem, &mut Stream::new(1, 0, 0, 0))?;

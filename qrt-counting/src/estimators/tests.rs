@@ -1,5 +1,8 @@
 //! Tests of all estimators.
 
+mod budgets;
+mod rendering;
+
 use crate::CountingError;
 use crate::estimators::{
     CountingProblem, Device, EstimatorError, Noise, Settings, estimate, estimator,
@@ -13,7 +16,7 @@ fn counting(phase_bits: u32, repetitions: u32) -> Counting {
         phase_bits,
         repetitions,
         window: Window::Sine,
-        estimator: Estimator::Paper,
+        estimator: Some(Estimator::Paper),
         strata: None,
         error: None,
     }

@@ -55,8 +55,10 @@ record! {
     /// The window on the phase register of `posterior-mean`; `paper` and `qss` count with the
     /// rectangular one and `sine` with the sine window, whatever stands here.
     pub window: Window = word::<Window>(), or Window::Sine;
-    /// The estimator that turns measurements into an amplitude.
-    pub estimator: Estimator = word::<Estimator>(), or Estimator::Auto;
+    /// The estimator that turns measurements into an amplitude. Without it: `auto`, which needs the fewest queries,
+    /// in a picture of up to 4,096 pixels, and wherever `error`, `accuracy` or more than one stratum is written;
+    /// `sine`, which is simulated fastest, in a larger picture.
+    pub estimator: Option<Estimator> = Maybe(word::<Estimator>()), or None;
     /// Parts of the comparator's range that are counted one by one: n of them are the upper half,
     /// the upper half of the rest, and so on, and what remains. `auto`, the default, chooses n for
     /// each channel of each pixel from what it measures first. Only the estimators `adaptive-bayes`,
@@ -69,19 +71,25 @@ record! {
 }
 
 impl Counting {
+    /// The estimator; `auto` if there is none. That of a large picture in a valid scene is never left out: see
+    /// [`ValidScene::is_counted_by_size`](crate::valid::ValidScene::is_counted_by_size).
+    pub fn estimator(&self) -> Estimator {
+        self.estimator.unwrap_or(Estimator::Auto)
+    }
+
     /// The window in which the phase register is prepared: the estimator's own, or else `window`.
     pub fn register_window(&self) -> Window {
-        self.estimator.register_window(self.window)
+        self.estimator().register_window(self.window)
     }
 
     /// True if the levels of paths may be read: by the estimator, or to count strata one by one.
     pub fn reads_levels(&self) -> bool {
-        self.estimator.reads_levels() || self.may_count_strata()
+        self.estimator().reads_levels() || self.may_count_strata()
     }
 
     /// True if strata of the comparator may be counted one by one.
     pub fn may_count_strata(&self) -> bool {
-        self.estimator.counts_strata() && self.strata != Some(1)
+        self.estimator().counts_strata() && self.strata != Some(1)
     }
 }
 

@@ -2,13 +2,36 @@
 //! bits. An error to stop at needs an estimator that stops by itself. `phase-mean` needs a comparator
 //! of few bits.
 
-use crate::scene::{Estimator, Scene};
+use crate::scene::{Counting, Estimator, Scene};
 use qrt_circuit::quantum::MAX_LEVEL_BITS;
 use qrt_syntax::{Path, Problem, Problems, Sampling as Fault};
 
+/// Most pixels of a picture that `auto` counts where no estimator is written. It needs fewer queries than `sine`, and
+/// is simulated some thirty times longer: for this many pixels, half a minute of processor time.
+const MOST_PIXELS: u64 = 4096;
+
+/// Chooses the estimator of a large picture where none is written, and nothing that only some estimators do is asked.
+/// Returns whether it did.
+pub(super) fn choose_by_size(scene: &mut Scene) -> bool {
+    let Counting {
+        estimator,
+        strata,
+        error,
+        ..
+    } = scene.counting;
+    let counts_strata = strata.is_some_and(|strata| strata > 1);
+    let needs_auto = scene.accuracy.is_some() || error.is_some() || counts_strata;
+    let is_large = u64::from(scene.film.width) * u64::from(scene.film.height) > MOST_PIXELS;
+    let chosen = estimator.is_none() && !needs_auto && is_large;
+    if chosen {
+        scene.counting.estimator = Some(Estimator::Sine);
+    }
+    chosen
+}
+
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     check_strata(scene, problems);
-    let estimator = scene.counting.estimator;
+    let estimator = scene.counting.estimator();
     let (bits, most) = (scene.comparator.bits, MAX_LEVEL_BITS);
     if estimator == Estimator::PhaseMean && bits > most {
         let what = Fault::LevelBits {
@@ -36,7 +59,7 @@ fn check_strata(scene: &Scene, problems: &mut Problems) {
     };
     let counting = Path::root().key("counting");
     let path = counting.key("strata");
-    let estimator = scene.counting.estimator;
+    let estimator = scene.counting.estimator();
     if !estimator.counts_strata() {
         let what = Fault::NoStrata {
             strata,

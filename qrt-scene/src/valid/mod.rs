@@ -11,10 +11,10 @@ mod geometry;
 pub(crate) use geometry::triangle_fault;
 mod glass;
 pub mod lights;
-mod notes;
 mod parameters;
 mod sampling;
 mod sky;
+mod warnings;
 
 pub use parameters::Parameters;
 pub use sampling::{MAX_ID_BITS, MAX_NET_DEPTHS};
@@ -49,8 +49,12 @@ pub struct ValidScene {
     pub(crate) firsts: Vec<usize>,
     pub(crate) files: Vec<PathBuf>,
     pub(crate) warnings: Vec<Problem>,
+    /// True if the estimator follows from the number of pixels.
+    by_size: bool,
     /// The number of the strategy that `uncompute: auto` chooses, cached because it takes a search.
     auto: OnceLock<usize>,
+    /// The fingerprint, cached because it takes a second for millions of faces.
+    fingerprint: OnceLock<Fingerprint>,
     /// Number of programs recorded from this scene, or from it with other parameters.
     recordings: Arc<AtomicU64>,
 }
@@ -229,9 +233,14 @@ impl Ball {
 }
 
 impl ValidScene {
-    /// The scene as its author wrote it.
+    /// The scene as its author wrote it, with one exception: if [`ValidScene::is_counted_by_size`], it has an estimator
+    /// that is not written.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+    /// True if no estimator is written, and the picture is counted by `sine` because it is large.
+    pub fn is_counted_by_size(&self) -> bool {
+        self.by_size
     }
     /// A cache for the number of the strategy that `uncompute: auto` chooses. The compiler fills it, since
     /// the choice takes a search.
@@ -340,6 +349,10 @@ impl ValidScene {
     /// surfaces that mesh files add. It changes with everything that changes the picture, in the scene
     /// or in a mesh file.
     pub fn fingerprint(&self) -> Fingerprint {
+        *self.fingerprint.get_or_init(|| self.hashed())
+    }
+
+    fn hashed(&self) -> Fingerprint {
         let mut print = self.scene.fingerprint();
         for surface in self.materials.iter().skip(self.scene.materials.len()) {
             let (kind, values) = match &surface.scatter {
@@ -427,6 +440,7 @@ pub(crate) fn check(
     camera::check(&scene.camera, &mut problems);
     sky::check(&scene, &mut problems);
     sampling::check(&scene, &mut problems);
+    let by_size = counting::choose_by_size(&mut scene);
     counting::check(&scene, &mut problems);
     let mut warnings = Vec::new();
     let mut materials = surfaces(&scene, &mut problems);
@@ -456,13 +470,15 @@ pub(crate) fn check(
         firsts,
         files,
         warnings,
+        by_size,
         auto: OnceLock::new(),
+        fingerprint: OnceLock::new(),
         recordings: Arc::default(),
     };
     camera::check_spheres(&valid.scene.camera, &valid.balls, &mut problems);
     glass::check(&valid, &mut problems);
     if problems.count() == 0 {
-        let found = notes::warnings(&valid);
+        let found = warnings::find(&valid);
         valid.warnings.extend(found);
     }
     lights::check(&mut valid, &mut problems);

@@ -34,7 +34,8 @@ impl ValidScene {
 
     /// Returns the same scene under other parameters, and without an `accuracy` that would choose
     /// them. Geometry and materials stay as they were read, except lamps that were not sampled
-    /// before and are now: they are cut into shapes that can be sampled.
+    /// before and are now: they are cut into shapes that can be sampled. An estimator that the picture's size chose is
+    /// chosen anew.
     ///
     /// # Errors
     /// All problems of the parameters.
@@ -60,6 +61,7 @@ impl ValidScene {
         let mut changed = Self {
             // Another circuit may need another strategy.
             auto: OnceLock::new(),
+            fingerprint: OnceLock::new(),
             ..self.clone()
         };
         let scene = &mut changed.scene;
@@ -69,6 +71,10 @@ impl ValidScene {
         scene.counting = parameters.counting;
         scene.circuit = parameters.circuit;
         scene.accuracy = None;
+        if self.by_size && scene.counting.estimator == self.scene.counting.estimator {
+            scene.counting.estimator = None;
+        }
+        changed.by_size = counting::choose_by_size(scene);
         let mut problems = Problems::default();
         scene.check(&Place::ROOT, &mut problems);
         problems.finalize();

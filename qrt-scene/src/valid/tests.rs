@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Accuracy, Camera, Estimator, Lambertian, Material};
+use crate::scene::{Accuracy, Camera, Counting, Estimator, Lambertian, Material};
 use qrt_syntax::codes;
 
 fn scene() -> Scene {
@@ -49,9 +49,72 @@ fn parameters_beside_an_accuracy_are_seen_without_their_text() {
         confidence: 0.9,
     });
     assert_eq!(codes_of(accurate.clone()), [""; 0]);
-    accurate.counting.estimator = Estimator::Paper;
+    accurate.counting.estimator = Some(Estimator::Paper);
     accurate.sampling.path_bits = 13;
     assert_eq!(codes_of(accurate), [codes::ACCURACY_CONFLICT; 2]);
+}
+
+#[test]
+fn large_pictures_without_an_estimator_are_counted_by_sine() {
+    let counted = |change: fn(&mut Scene), film: [u32; 2]| {
+        let mut scene = scene();
+        [scene.film.width, scene.film.height] = film;
+        change(&mut scene);
+        let valid = validate(scene, &Meshes::default()).unwrap();
+        let counting = valid.parameters().counting;
+        (counting.estimator(), valid.is_counted_by_size())
+    };
+    let (small, large) = ([64, 64], [4097, 1]);
+    assert_eq!(counted(|_| (), small), (Estimator::Auto, false));
+    assert_eq!(counted(|_| (), large), (Estimator::Sine, true));
+    let written: [fn(&mut Scene); 4] = [
+        |scene| scene.counting.estimator = Some(Estimator::Auto),
+        |scene| scene.counting.strata = Some(2),
+        |scene| scene.counting.error = Some(0.1),
+        |scene| {
+            scene.accuracy = Some(Accuracy {
+                error: 0.1,
+                confidence: 0.9,
+            });
+        },
+    ];
+    for change in written {
+        assert_eq!(counted(change, large), (Estimator::Auto, false));
+    }
+    let one_stratum = |scene: &mut Scene| scene.counting.strata = Some(1);
+    assert_eq!(counted(one_stratum, large), (Estimator::Sine, true));
+}
+
+#[test]
+fn other_parameters_choose_the_estimator_of_a_large_picture_anew() {
+    let mut large = scene();
+    [large.film.width, large.film.height] = [4097, 1];
+    let valid = validate(large, &Meshes::default()).unwrap();
+    let counted = |change: fn(&mut Counting)| {
+        let mut parameters = valid.parameters();
+        change(&mut parameters.counting);
+        let changed = valid.with_parameters(parameters).unwrap();
+        let estimator = changed.scene().counting.estimator();
+        (estimator, changed.is_counted_by_size())
+    };
+    assert_eq!(counted(|_| ()), (Estimator::Sine, true));
+    let unwritten = |counting: &mut Counting| *counting = Counting::default();
+    assert_eq!(counted(unwritten), (Estimator::Sine, true));
+    let with_error = |counting: &mut Counting| counting.error = Some(0.1);
+    assert_eq!(counted(with_error), (Estimator::Auto, false));
+    let paper = |counting: &mut Counting| counting.estimator = Some(Estimator::Paper);
+    assert_eq!(counted(paper), (Estimator::Paper, false));
+}
+
+#[test]
+fn other_parameters_change_a_fingerprint_that_has_been_read() {
+    let valid = validate(scene(), &Meshes::default()).unwrap();
+    let first = valid.fingerprint();
+    let mut parameters = valid.parameters();
+    parameters.sampling.path_bits += 1;
+    let changed = valid.with_parameters(parameters).unwrap();
+    assert_ne!(changed.fingerprint(), first);
+    assert_eq!(valid.fingerprint(), first);
 }
 
 #[test]

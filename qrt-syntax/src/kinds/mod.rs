@@ -6,9 +6,9 @@
     reason = "a variant is documented by its words, an argument by its name"
 )]
 
-use super::called::called;
 use super::name::{listed, nearest};
 use super::number::{grouped, number, rounded};
+use super::other_names::called;
 use super::tree::shorten;
 use std::fmt;
 

@@ -53,7 +53,6 @@ problems! {
         NoCounterpart { renderer: &'static str, name: String, kind: &'static str } = NO_COUNTERPART
             { format!("{renderer} has no counterpart of the `{kind}` of `{}`", shorten(name)) }
             help { Some(match *kind {
-                "metal" => "Mitsuba's metals take Fresnel's formulas: use `ggx`, or `mirror` for smooth metal".to_owned(),
                 "checker" => "on faces that are parallel to two axes it is exported: draw a slanted face, a \
                     sphere or a disc in one colour".to_owned(),
                 "phong" => "a `phong` without `specular` is matte, and is exported".to_owned(),

@@ -55,19 +55,19 @@ pub(super) fn json(
         "channel": inspection.name.channel_name(),
         "class": inspection.name.class_name(),
         "strategy": written.circuit.uncompute.name(),
-        "estimator": counting.estimator.name(),
+        "estimator": counting.estimator().name(),
         "phase_bits": counting.phase_bits,
         "repetitions": counting.repetitions,
         "pixels": picture.pixels,
         "queries": { "channel": one.queries, "pixel": picture.queries, "film": film },
         "plan": plan.map(qrt_lab::json::plan),
         "assumed": {
-            "queries": if plan.is_some() && !counting.estimator.has_register() {
+            "queries": if plan.is_some() && !counting.estimator().has_register() {
                 "as many as are planned of a pixel on average"
             } else {
                 "as many as the scene's counting may use"
             },
-            "circuit": if counting.estimator.has_register() {
+            "circuit": if counting.estimator().has_register() {
                 "quantum counting with its phase register, repeated"
             } else {
                 "iterates without a control; after each the index is measured"

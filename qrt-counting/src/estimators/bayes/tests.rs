@@ -13,7 +13,7 @@ fn settings(queries: u64) -> Settings {
         phase_bits: 8,
         repetitions: 1,
         window: Window::Sine,
-        estimator: Estimator::AdaptiveBayes,
+        estimator: Some(Estimator::AdaptiveBayes),
         strata: None,
         error: None,
     };

@@ -24,7 +24,7 @@ const MOST_UNUSED: usize = 8;
 const MOST_COMPARED: usize = 1 << 24;
 
 /// Warnings of a scene without errors.
-pub(super) fn warnings(valid: &ValidScene) -> Vec<Problem> {
+pub(super) fn find(valid: &ValidScene) -> Vec<Problem> {
     let mut found: Vec<Problem> = unused_materials(valid).collect();
     found.extend(unlit(valid));
     found.extend(opposite_lamps(valid));

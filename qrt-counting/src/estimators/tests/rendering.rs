@@ -1,8 +1,8 @@
 //! Short tests of the estimators of quantum rendering; `benches/estimators/rendering.rs` has the
 //! long ones.
 
-use super::{CountingProblem, Device, Estimate, Noise, Settings, estimator};
 use crate::PhaseDistribution;
+use crate::estimators::{CountingProblem, Device, Estimate, Noise, Settings, estimator};
 use crate::random::Stream;
 use qrt_circuit::quantum::Window;
 use qrt_scene::{Counting, Estimator};
@@ -15,7 +15,7 @@ fn settings(phase_bits: u32) -> Settings {
         phase_bits,
         repetitions: 1,
         window: Window::Rect,
-        estimator: Estimator::Qss,
+        estimator: Some(Estimator::Qss),
         strata: None,
         error: None,
     };
@@ -198,7 +198,7 @@ fn supersampling_looks_up_what_is_likeliest() {
 #[test]
 fn supersampling_covers_least_between_its_readings() {
     let (total, bits) = (1_u64 << 40, 8);
-    let supersampling = super::Supersampling::new(&settings(bits)).unwrap();
+    let supersampling = crate::estimators::Supersampling::new(&settings(bits)).unwrap();
     let table = supersampling.table(total).unwrap();
     let covered = |steps: f64| {
         let amplitude = libm::sin(std::f64::consts::PI * steps / 256.0).powi(2);
