@@ -268,11 +268,11 @@ fn picture() -> Result<String, Box<dyn Error>> {
     writeln!(
         out,
         "counting: Counting {{ phase_bits: {}, repetitions: {}, window: Window::{:?}, estimator: \
-         Estimator::{:?}, strata: {:?}, error: {:?} }},",
+         Some(Estimator::{:?}), strata: {:?}, error: {:?} }},",
         counting.phase_bits,
         counting.repetitions,
         counting.window,
-        counting.estimator,
+        counting.estimator(),
         counting.strata,
         counting.error
     )?;

@@ -188,7 +188,7 @@ impl<'a> Run<'a> {
 
     fn counts(&self, planned: Option<u64>) -> Result<ChannelCounts, PhysicalError> {
         let counting = self.scene.scene().counting;
-        let estimator = counting.estimator;
+        let estimator = counting.estimator();
         match estimator {
             Estimator::Exact
             | Estimator::MonteCarlo

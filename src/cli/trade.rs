@@ -43,10 +43,10 @@ pub(crate) struct TradeArgs {
     /// The folder to write to; it is made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer settings, pixels and reference paths
+    /// Fewer settings, pixels and reference paths, and no gates that take long
     #[arg(long)]
     quick: bool,
-    /// Pixels to try, spread over the film [default: 256; with --quick 32]
+    /// Pixels to try, spread over the film [default: 256; with --quick 32, or 16 if a call takes more than 2^20 Toffolis, 8 if more than 2^23]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pixels: Option<u64>,
     /// Another seed gives other paths and other noise
@@ -131,8 +131,7 @@ pub(crate) fn run(args: &TradeArgs) -> Result<(), Failure> {
     if !args.quiet {
         let film = scene.scene().film;
         let film = f64::from(film.width) * f64::from(film.height);
-        let usual = if args.quick { 32 } else { 256 };
-        let pixels = film.min(args.pixels.unwrap_or(usual) as f64);
+        let pixels = film.min(options.most_pixels() as f64);
         let threads = args.threads.or_cores();
         let pixels = pixels / f64::from(args.portion.unwrap_or_default().count());
         time::tell_of_paths(&prepared, pixels, TRACED_ANEW, &[Model::Real], threads);

@@ -13,7 +13,7 @@ use qrt_tracer::ByClass;
 use std::ops::Range;
 
 /// The estimator that is used if the scene's own is `exact`.
-const DEFAULT: Estimator = Estimator::Auto;
+const BESIDE_EXACT: Estimator = Estimator::Auto;
 
 /// A part of a picture, as far as it is traced.
 pub(super) struct Picture {
@@ -129,11 +129,10 @@ impl Picture {
             .lines("estimators", &estimators)
     }
 
-    /// The scene's estimator, or the default one if the scene's own is `exact`, which does not
-    /// measure.
+    /// The scene's estimator, or `auto` if the scene's own is `exact`, which does not measure.
     fn estimator(&self) -> Estimator {
-        match self.counting.estimator {
-            Estimator::Exact => DEFAULT,
+        match self.counting.estimator() {
+            Estimator::Exact => BESIDE_EXACT,
             other => other,
         }
     }
@@ -230,7 +229,7 @@ impl Picture {
             return Err(Refused::NotTraced);
         }
         let counting = Counting {
-            estimator,
+            estimator: Some(estimator),
             phase_bits,
             ..self.counting
         };

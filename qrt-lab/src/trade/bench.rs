@@ -27,6 +27,8 @@ pub(super) struct Effort {
     pub(super) depth_bits: u32,
     /// Number of runs of an estimator for each channel of a pixel.
     pub(super) draws: u64,
+    /// Most Toffolis of a row whose gates are run, if there is a limit.
+    pub(super) most_toffoli: Option<u64>,
 }
 
 /// The data that rows have in common.
@@ -68,7 +70,6 @@ struct Built {
 impl<'a> Bench<'a> {
     pub(super) fn new(
         scene: &'a ValidScene,
-        pixels: Vec<[u32; 2]>,
         seed: u64,
         effort: Effort,
         workers: Workers<'a>,
@@ -76,7 +77,7 @@ impl<'a> Bench<'a> {
         Self {
             parameters: scene.parameters(),
             scene,
-            pixels,
+            pixels: Vec::new(),
             seed,
             effort,
             workers,
@@ -88,8 +89,9 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Checks that the scene as it is has a circuit, and that running its gates fits into `memory`.
-    pub(super) fn check(&mut self, memory: Memory) -> Result<(), TradeError> {
+    /// Checks that the scene as it is has a circuit, and that running its gates fits into `memory`. Returns the
+    /// Toffolis of a call.
+    pub(super) fn check(&mut self, memory: Memory) -> Result<u64, TradeError> {
         let parameters = Setting::from_parameters(&self.parameters).parameters(&self.parameters);
         let scene = self
             .scene
@@ -97,16 +99,18 @@ impl<'a> Bench<'a> {
             .map_err(TradeError::Parameters)?;
         memory.keep_compiling(&scene)?;
         // For the scene's own circuit, a missing circuit is an error, so the inner result is `Ok`.
-        if let Ok(Built { oracles, .. }) = self.built(&scene, &parameters)? {
+        let mut toffoli = 0;
+        if let Ok(Built { oracles, cost }) = self.built(&scene, &parameters)? {
+            toffoli = cost.toffoli;
             let oracle = oracles.all_channels(oracles.classes().present()[0])?;
             let work = CircuitWork::gates(self.workers.threads);
             memory.keep_circuit(&scene, &CircuitSize::new(&oracle), work)?;
         }
         Real::new(&scene, self.seed)?;
-        Ok(())
+        Ok(toffoli)
     }
 
-    /// Measures a row. The inner error is the reason why the setting has no scene or no circuit.
+    /// Measures a row. The inner error is the reason why it was not measured.
     pub(super) fn row(&mut self, setting: Setting) -> Result<Result<Row, String>, TradeError> {
         if setting.sweep.is_rival() {
             return self.rival(setting).map(Ok);
@@ -120,6 +124,15 @@ impl<'a> Bench<'a> {
             Ok(built) => built,
             Err(why) => return Ok(Err(why)),
         };
+        let paths = (self.pixels.len() as u64) << parameters.sampling.path_bits;
+        let toffoli = built.cost.toffoli.saturating_mul(paths);
+        if setting.model == Model::Gates
+            && self.effort.most_toffoli.is_some_and(|most| toffoli > most)
+        {
+            return Ok(Err(format!(
+                "its gates take long, {toffoli} Toffolis, and count what `fixed` counts; a measurement that is not quick runs them"
+            )));
+        }
         let kept = self.kept(setting)?;
         let own = self.reference(self.parameters.sampling.depths.len())?;
         let mean = sample::radiance(&picked(own, &kept));
@@ -296,7 +309,7 @@ impl<'a> Bench<'a> {
             Countable::Whole(&traced.good)
         };
         let found = draws.draw(&self.pixels, &countable)?;
-        let exact = parameters.counting.estimator == Estimator::Exact;
+        let exact = parameters.counting.estimator() == Estimator::Exact;
         let queries: u64 = found.iter().flat_map(|drawn| drawn.queries).sum();
         let values = |(drawn, bound): (PixelEstimates, &[f64; 3])| {
             let value = |of: &[f64; 3]| std::array::from_fn(|c| bound[c] * of[c]);

@@ -93,12 +93,12 @@ use table::Contents;
 /// Options of a measurement.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TradeOptions<'a> {
-    /// Number of pixels, spread over the film; all of them if it has no more. 256 unless set, 32 if
-    /// quick.
+    /// Number of pixels, spread over the film; all of them if it has no more. 256 unless set; if quick 32, or 16
+    /// of a scene whose oracle has more than 2^20 Toffolis, and 8 of one with more than 2^23.
     pub pixels: Option<u64>,
     /// Key of the shifts of the digital net and of every draw.
     pub seed: u64,
-    /// Measures fewer settings, pixels and reference paths.
+    /// Measures fewer settings, pixels and reference paths, and runs no gates where that takes long.
     pub quick: bool,
     /// The portion of the settings that this process measures; the settings are dealt out one by
     /// one. With a portion there is a table, and neither plots nor a page. All settings unless set.
@@ -110,6 +110,13 @@ pub struct TradeOptions<'a> {
     pub workers: Workers<'a>,
     /// The memory budget. A scene whose circuit would exceed it is refused.
     pub memory: Memory,
+}
+
+impl TradeOptions<'_> {
+    /// Most pixels that are measured: [`TradeOptions::pixels`], or its default for any circuit.
+    pub fn most_pixels(&self) -> u64 {
+        self.pixels.unwrap_or(if self.quick { 32 } else { 256 })
+    }
 }
 
 /// The result of measuring a scene's parameters.
@@ -131,7 +138,8 @@ pub struct Trade {
     pub resumed: usize,
     /// Number of rows that were damaged, and that were measured again.
     pub damaged: usize,
-    /// Settings that have no scene, or no circuit, and the reason.
+    /// Settings that were not measured, and the reason: they have no scene or no circuit, or their gates take too long
+    /// for a quick measurement.
     pub left_out: Vec<(Setting, String)>,
 }
 
@@ -191,6 +199,14 @@ pub fn trade(
     Ok(measured)
 }
 
+/// Toffolis of a call above which a quick measurement takes half of the pixels, and those above which it takes a
+/// quarter.
+const MANY_TOFFOLIS: [u64; 2] = [1 << 20, 1 << 23];
+
+/// Most Toffolis of a row that a quick measurement runs gate by gate: below ten seconds of processor time on a circuit
+/// of millions of gates, and below one on a small circuit.
+const MOST_OF_A_ROW: u64 = 50_000_000_000;
+
 /// Returns the name of this build: hashes of the sources that a row depends on, those of the renderer
 /// and those of this module.
 fn build() -> String {
@@ -204,10 +220,6 @@ fn measure(
 ) -> Result<Trade, TradeError> {
     let written = scene.scene();
     let film = [written.film.width, written.film.height];
-    let asked = options
-        .pixels
-        .unwrap_or(if options.quick { 32 } else { 256 });
-    let pixels = spread(film, asked.max(1));
     let settings = sweep::settings(&scene.parameters(), options.quick);
     let counted = settings.iter().filter(|s| !s.sweep.is_rival());
     let longest = counted.map(|setting| setting.path_bits).max();
@@ -216,19 +228,28 @@ fn measure(
         reference_bits: (longest.unwrap_or(0) + more).min(qrt_scene::sampling::MAX_PATH_BITS),
         depth_bits: written.sampling.path_bits.clamp(8, 12),
         draws: if options.quick { 2 } else { 4 },
+        most_toffoli: options.quick.then_some(MOST_OF_A_ROW),
     };
+    let mut bench = Bench::new(scene, options.seed, effort, options.workers);
+    // Reports a scene that cannot be measured before it writes a file.
+    let toffoli = bench.check(options.memory)?;
+    let most = options.most_pixels();
+    let asked = if options.pixels.is_none() && options.quick {
+        let halvings = MANY_TOFFOLIS.into_iter().filter(|many| toffoli > *many);
+        most >> halvings.count()
+    } else {
+        most
+    };
+    bench.pixels = spread(film, asked.max(1));
+    let count = bench.pixels.len() as u64;
     let header = vec![
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("build", build()),
         ("scene_hash", scene.fingerprint().to_string()),
         ("seed", options.seed.to_string()),
-        ("pixels", pixels.len().to_string()),
+        ("pixels", count.to_string()),
         ("quick", options.quick.to_string()),
     ];
-    let count = pixels.len() as u64;
-    let mut bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
-    // Reports a scene that cannot be measured before it writes a file.
-    bench.check(options.memory)?;
     let own = folder.join("trade.csv");
     let parts = options.parts.iter().map(|part| part.join("trade.csv"));
     let parts: Vec<PathBuf> = parts.collect();

@@ -47,8 +47,10 @@ impl Preview {
             reference_bits: path_bits,
             depth_bits: path_bits,
             draws: 1,
+            most_toffoli: None,
         };
-        let bench = Bench::new(scene, pixels, options.seed, effort, options.workers);
+        let mut bench = Bench::new(scene, options.seed, effort, options.workers);
+        bench.pixels = pixels;
         let rays = scene.scene().sampling.depths.len();
         let pixels = bench.means(&bench.lit_net(rays, path_bits)?, 0)?;
         let mean = sample::radiance(&pixels);

@@ -108,7 +108,7 @@ impl Setting {
         Self {
             sweep: Sweep::Scene,
             model: Model::Fixed,
-            estimator: parameters.counting.estimator,
+            estimator: parameters.counting.estimator(),
             phase_bits: parameters.counting.phase_bits,
             repetitions: parameters.counting.repetitions,
             strata: parameters.counting.strata,
@@ -231,7 +231,7 @@ impl Setting {
         parameters.counting = Counting {
             phase_bits: self.phase_bits,
             repetitions: self.repetitions,
-            estimator: self.estimator,
+            estimator: Some(self.estimator),
             strata: self.strata(),
             // All other rows use up their queries.
             error: (scene.counting.error).filter(|_| self.sweep == Sweep::Scene),

@@ -6,7 +6,7 @@
 use super::setting::{Setting, Sweep};
 use qrt_runtime::models::Model;
 use qrt_scene::valid::{MAX_NET_DEPTHS, Parameters};
-use qrt_scene::{Counting, Estimator, Nearest, Sequence, Uncompute};
+use qrt_scene::{Estimator, Nearest, Sequence, Uncompute};
 
 /// Number of times that a register is halved before it is repeated, to make up for up to 32
 /// repetitions.
@@ -48,10 +48,10 @@ pub(super) fn settings(parameters: &Parameters, quick: bool) -> Vec<Setting> {
     rows
 }
 
-/// Settings of the scene's estimator, or of the default one, for the comparison with rivals.
+/// Settings of the scene's estimator, or of `auto` if that is `exact`, for the comparison with rivals.
 fn beside_rivals(scene: Setting, quick: bool, step: usize) -> impl Iterator<Item = Setting> {
     let own = match scene.estimator {
-        Estimator::Exact => Counting::default().estimator,
+        Estimator::Exact => Estimator::Auto,
         own => own,
     };
     let rows = counting(scene, quick, step);

@@ -5,6 +5,7 @@ use super::super::sweep::settings;
 use super::super::{Setting, Sweep};
 use super::{LIT, scene};
 use qrt_runtime::memory::Memory;
+use qrt_runtime::models::Model;
 use qrt_runtime::sample::spread;
 use qrt_runtime::workers::Workers;
 use qrt_scene::Sequence;
@@ -28,8 +29,10 @@ fn bench(scene: &ValidScene) -> Bench<'_> {
         reference_bits: 15,
         depth_bits: 6,
         draws: 1,
+        most_toffoli: None,
     };
-    let mut bench = Bench::new(scene, spread([6, 4], 24), 0, effort, Workers::default());
+    let mut bench = Bench::new(scene, 0, effort, Workers::default());
+    bench.pixels = spread([6, 4], 24);
     bench.check(Memory::default()).unwrap();
     bench
 }
@@ -47,6 +50,25 @@ fn rival(bench: &mut Bench<'_>, scene: &ValidScene, sweep: Sweep) -> Vec<(f64, f
         (row.queries, row.errors[5].value)
     });
     rows.collect()
+}
+
+#[test]
+fn gates_that_take_long_are_left_out_of_a_quick_measurement() {
+    let scene = scene(&lit());
+    let mut bench = bench(&scene);
+    let rows = of(&scene, Sweep::Model);
+    let [fixed, gates] = [Model::Fixed, Model::Gates]
+        .map(|model| *rows.iter().find(|row| row.model == model).unwrap());
+    let toffoli = bench.row(gates).unwrap().unwrap().cost.toffoli;
+    let run = toffoli * (24 << scene.parameters().sampling.path_bits);
+    for (most, is_run) in [(run, true), (run - 1, false)] {
+        bench.effort.most_toffoli = Some(most);
+        assert!(bench.row(fixed).unwrap().is_ok());
+        match bench.row(gates).unwrap() {
+            Ok(_) => assert!(is_run),
+            Err(why) => assert!(!is_run && why.contains(&run.to_string()), "{why}"),
+        }
+    }
 }
 
 /// Checks the errors of rivals against the scene's own net and against theory.
