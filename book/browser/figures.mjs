@@ -9,14 +9,11 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { FORMS, WIDE, screenshot, shut, tab, until, visit } from "./browser.mjs";
 import { barriers, misfits } from "./pages.mjs";
-import { SCREENSHOTS, check, checkAll, fail, folder, qrt } from "./report.mjs";
+import { SCREENSHOTS, check, checkAll, fail, folder, inTime, qrt } from "./report.mjs";
 
 /** Milliseconds until a figure can be used. */
 const SOON = 1000;
-/**
- * Milliseconds for which the picture may keep its page busy at a stretch. It stays below 50 on a
- * machine that has nothing else to do; tests run on others, too.
- */
+/** Milliseconds for which the picture may keep its page busy at a stretch. */
 const BUSY = 500;
 /** Contrast that text must have: WCAG 2, level AA. */
 const CONTRAST = 4.5;
@@ -118,8 +115,8 @@ class Figure {
     // Tasks from the figure's first moment on; those before are the page's own.
     const busy = await page.evaluate((from) => Math.max(0, ...window.qrtLong.filter((task) => task.startTime >= from).map((task) => task.duration)), ready - took);
     console.log(`${where}: there after ${took.toFixed(0)} ms, ${ready.toFixed(0)} ms after the page was asked for; longest task ${busy.toFixed(0)} ms`);
-    if (took > SOON) fail(where, `takes ${took.toFixed(0)} ms to load`);
-    if (name === "picture" && busy > BUSY) fail(where, `keeps the page busy for ${busy.toFixed(0)} ms`);
+    inTime(where, "loading", took, SOON);
+    if (name === "picture") inTime(where, "the longest task", busy, BUSY);
     return true;
   }
 

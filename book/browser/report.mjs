@@ -12,6 +12,11 @@ export function fail(where, what) {
   console.error(`FAILED  ${where}: ${what}`);
 }
 
+/** Fails if something takes longer than `most` milliseconds, where times are judged: other processes lengthen them. */
+export function inTime(where, what, took, most) {
+  if (process.env.TIMES && took > most) fail(where, `${what} takes ${took.toFixed(0)} ms, more than ${most}`);
+}
+
 /** Compares a number of the page with qrt's. */
 export function check(where, name, found, expected, tolerance = 0) {
   const close = Math.abs(found - expected) <= tolerance * Math.max(1, Math.abs(expected));
