@@ -13,7 +13,8 @@
 use super::CustomBsdf;
 use crate::sampling::maps;
 use crate::scene::{Bsdf, Jacobian, Rgb};
-use qrt_syntax::expr::{Domain, Expr, Variable, Variables};
+use qrt_circuit::Cores;
+use qrt_syntax::expr::{Domain, Expr, OnGrid, Variable};
 use qrt_syntax::{Bsdf as Fault, Path, Problem};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -127,9 +128,9 @@ impl MapChecks {
 
     fn directions(&self, map: &[Expr; 3]) -> &[[f64; 3]] {
         self.directions.get_or_init(|| {
-            let mut room = Vec::new();
-            let direction = |at: Variables| map.each_ref().map(|c| c.eval_in(&at, &mut room));
-            shape::points().map(direction).collect()
+            let ticks = shape::ticks();
+            let at = |_, _, direction, _| direction;
+            on_grid(map, &map[2], (&ticks, &ticks), at)
         })
     }
 }
@@ -145,6 +146,28 @@ impl KnownMap {
             }
         }
     }
+}
+
+/// Returns what `at` makes of each point: of its row and column, of the map's direction there, and of the value of
+/// `other`.
+fn on_grid<T>(
+    map: &[Expr; 3],
+    other: &Expr,
+    (rows, columns): (&[f64], &[f64]),
+    at: impl Fn(usize, usize, [f64; 3], f64) -> T,
+) -> Vec<T> {
+    let mut components = map.each_ref().map(|c| OnGrid::new(c, columns));
+    let mut other = OnGrid::new(other, columns);
+    let mut all = Vec::with_capacity(rows.len() * columns.len());
+    for (row, &u) in rows.iter().enumerate() {
+        components.iter_mut().for_each(|grid| grid.set_u(u));
+        other.set_u(u);
+        for column in 0..columns.len() {
+            let direction = components.each_mut().map(|grid| grid.value(column));
+            all.push(at(row, column, direction, other.value(column)));
+        }
+    }
+    all
 }
 
 /// Compiles as [`compile`] does, with the cached checks of the previous BSDF's map.
@@ -314,15 +337,16 @@ pub fn weight_bound(
     extent: Extent,
 ) -> Rgb {
     let domain = extent.domain();
+    let first = [0, 1, 2].map(|i| (0..i).find(|j| value[*j] == value[i]).unwrap_or(i));
+    let distinct: Vec<usize> = (0..3).filter(|&i| first[i] == i).collect();
+    let found = Cores::All.map(&distinct, 1, |&i| {
+        bound::supremum(&weight(map, projected_jacobian, &value[i]), &domain)
+    });
     let mut bounds: Rgb = [0.0; 3];
-    for i in 0..3 {
-        bounds[i] = if let Some(same) = (0..i).find(|j| value[*j] == value[i]) {
-            bounds[same]
-        } else {
-            bound::supremum(&weight(map, projected_jacobian, &value[i]), &domain)
-        };
+    for (i, bound) in distinct.into_iter().zip(found) {
+        bounds[i] = bound;
     }
-    bounds
+    first.map(|i| bounds[i])
 }
 
 /// Returns the weight `value * projected_jacobian` as one expression, with `|phi_z|` in place of

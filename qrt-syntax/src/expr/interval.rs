@@ -264,6 +264,17 @@ impl Interval {
                 around.within(f64::NEG_INFINITY, 0.0)
             }
         };
+        let is_point = |interval: Self| interval.lo == interval.hi;
+        if is_point(self) && is_point(other) {
+            return product(self.lo, other.lo);
+        }
+        // Rounding keeps order.
+        if self.lo >= 0.0 && other.lo >= 0.0 {
+            return Self {
+                lo: product(self.lo, other.lo).lo,
+                hi: product(self.hi, other.hi).hi,
+            };
+        }
         product(self.lo, other.lo)
             .hull(product(self.lo, other.hi))
             .hull(product(self.hi, other.lo))
@@ -340,19 +351,20 @@ impl Interval {
     /// The power by the interval products of repeated squaring, so that their rounding is covered.
     fn positive_powi(self, n: u32) -> Self {
         let power = |x: f64| {
-            let mut result = Self::point(1.0);
+            let mut result: Option<Self> = None;
             let mut square = Self::point(x);
             let mut bits = n;
-            while bits != 0 {
+            loop {
                 if bits & 1 != 0 {
-                    result = result.times(square);
+                    result = Some(result.map_or(square, |result| result.times(square)));
                 }
                 bits >>= 1;
-                if bits != 0 {
-                    square = square.times(square);
+                if bits == 0 {
+                    break;
                 }
+                square = square.times(square);
             }
-            result
+            result.unwrap_or(Self::point(1.0))
         };
         let base = if n.is_multiple_of(2) {
             self.abs()

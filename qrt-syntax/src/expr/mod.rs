@@ -31,6 +31,7 @@ mod arena;
 mod diff;
 mod display;
 mod eval;
+mod grid;
 mod interval;
 mod parse;
 #[cfg(test)]
@@ -40,6 +41,7 @@ mod simplify;
 mod tests;
 
 use arena::Arena;
+pub use grid::OnGrid;
 pub use interval::{Domain, Interval};
 pub use parse::function_names;
 #[cfg(test)]

@@ -135,6 +135,77 @@ fn simplification_keeps_the_value() {
     });
 }
 
+/// Infinite and undefined values, too, have the same bits.
+#[test]
+fn values_on_a_grid_are_those_at_its_points() {
+    try_on_many(5000, 5000, |e, at| {
+        let e = [
+            Variable::CosO,
+            Variable::CosA,
+            Variable::X,
+            Variable::Y,
+            Variable::Z,
+        ]
+        .into_iter()
+        .fold(e.clone(), |e, other| {
+            e.substitute(other, &Expr::number(at.get(other)).unwrap())
+        });
+        let (rows, columns) = ([at.u, 0.5, 0.0, at.u], [at.v, 0.25, 1.0]);
+        let mut grid = OnGrid::new(&e, &columns);
+        let mut values = Vec::new();
+        for u in rows {
+            grid.set_u(u);
+            for (column, v) in columns.into_iter().enumerate() {
+                let at = Variables {
+                    u,
+                    v,
+                    ..Variables::default()
+                };
+                let value = e.eval_in(&at, &mut values);
+                assert_eq!(
+                    grid.value(column).to_bits(),
+                    value.to_bits(),
+                    "{e} at {at:?}"
+                );
+                let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(grid.values()), bits(&values), "{e} at {at:?}");
+            }
+        }
+        true
+    });
+}
+
+#[test]
+fn a_product_of_intervals_is_the_hull_of_the_products_of_their_ends() {
+    let ends = [
+        -3.5,
+        -0.1,
+        -0.0,
+        0.0,
+        1e-300,
+        0.1,
+        1.0 / 3.0,
+        7.0,
+        f64::INFINITY,
+    ];
+    let intervals = || {
+        ends.iter().flat_map(|&lo| {
+            let above = ends.into_iter().filter(move |hi| lo <= *hi);
+            above.map(move |hi| Interval { lo, hi })
+        })
+    };
+    for a in intervals() {
+        for b in intervals() {
+            let of = |a: f64, b: f64| Interval::point(a).times(Interval::point(b));
+            let hull = of(a.lo, b.lo).hull(of(a.lo, b.hi));
+            let hull = hull.hull(of(a.hi, b.lo)).hull(of(a.hi, b.hi));
+            let product = a.times(b);
+            let bits = |i: Interval| [i.lo.to_bits(), i.hi.to_bits()];
+            assert_eq!(bits(product), bits(hull), "{a:?} times {b:?}");
+        }
+    }
+}
+
 #[test]
 fn a_value_is_not_simplified_away() {
     try_on_many(20_000, 6_000, |e, at| {

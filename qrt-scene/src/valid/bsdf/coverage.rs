@@ -15,6 +15,7 @@
 //! depend on u or v, their map may leave directions out, which are then black, but must cover none
 //! more than once.
 
+use super::on_grid;
 use qrt_syntax::expr::{Expr, Variable, Variables};
 use qrt_syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
@@ -169,12 +170,21 @@ impl Asked {
     /// Creates the integrand of values that depend on directions alone. It is constant if none of
     /// them reflects light.
     fn from_values(known: &[&Expr]) -> Self {
-        let mut rows: Vec<f64> = (0..=ROWS)
-            .map(|row| {
-                let z = 2.0 * row as f64 / ROWS as f64 - 1.0;
-                known.iter().map(|value| mean(value, z)).sum()
-            })
-            .collect();
+        let is_turned = |value: &Expr| value.variables(value.root()).contains(Variable::CosA);
+        let turned: Vec<bool> = known.iter().map(|value| is_turned(value)).collect();
+        let row = |row: usize| -> f64 {
+            let z = 2.0 * row as f64 / ROWS as f64 - 1.0;
+            let values = known.iter().zip(&turned);
+            values.map(|(value, turned)| mean(value, *turned, z)).sum()
+        };
+        let mut rows: Vec<f64> = (0..=ROWS / 2).map(row).collect();
+        if turned.contains(&true) {
+            rows.extend((ROWS / 2 + 1..=ROWS).map(row));
+        } else {
+            // The same above as below.
+            rows.extend_from_within(..ROWS / 2);
+            rows[ROWS / 2 + 1..].reverse();
+        }
         let sum: f64 = rows.iter().sum();
         let everywhere = sum > 0.0 && sum.is_finite();
         if !everywhere {
@@ -209,20 +219,26 @@ impl Asked {
 }
 
 /// Returns the value at height `z`, averaged over some viewers, one in the mirror direction.
-fn mean(value: &Expr, z: f64) -> f64 {
+///
+/// `is_turned` is true if the value depends on the angle between both directions.
+fn mean(value: &Expr, is_turned: bool, z: f64) -> f64 {
     let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
     let mut room = Vec::new();
     let mut sum = 0.0;
     for cos_o in [z.abs(), 1.0, 0.9, 0.6, 0.3, 0.1] {
         let sin_o = ((1.0 - cos_o) * (1.0 + cos_o)).max(0.0).sqrt();
-        for turn in [1.0, 0.0, -1.0] {
+        let mut seen = 0.0;
+        for (number, turn) in [1.0, 0.0, -1.0].into_iter().enumerate() {
             let at = Variables {
                 cos_i: z.abs(),
                 cos_o,
                 cos_a: (z * cos_o + turn * sine * sin_o).clamp(-1.0, 1.0),
                 ..Variables::default()
             };
-            sum += value.eval_in(&at, &mut room).max(0.0);
+            if is_turned || number == 0 {
+                seen = value.eval_in(&at, &mut room).max(0.0);
+            }
+            sum += seen;
         }
     }
     sum / 18.0
@@ -256,24 +272,13 @@ fn cells_of(map: &[Expr; 3], projected_jacobian: &Expr, points: u32) -> Vec<Cell
         (t, rate / f64::from(points))
     };
     let ticks: Vec<(f64, f64)> = (0..points).map(tick).collect();
-    let mut cells = Vec::with_capacity(ticks.len() * ticks.len());
-    let mut room = Vec::new();
-    for &(u, du) in &ticks {
-        for &(v, dv) in &ticks {
-            let at = Variables {
-                u,
-                v,
-                ..Variables::default()
-            };
-            let [x, y, z] = map.each_ref().map(|c| c.eval_in(&at, &mut room));
-            cells.push(Cell {
-                z,
-                turn: (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64,
-                area: projected_jacobian.eval_in(&at, &mut room) * du * dv,
-            });
-        }
-    }
-    cells
+    let places: Vec<f64> = ticks.iter().map(|tick| tick.0).collect();
+    let cell = |row: usize, column: usize, [x, y, z]: [f64; 3], area: f64| Cell {
+        z,
+        turn: (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64,
+        area: area * ticks[row].1 * ticks[column].1,
+    };
+    on_grid(map, projected_jacobian, (&places, &places), cell)
 }
 
 /// The coverage of a map, by place and by side.

@@ -1,10 +1,13 @@
 //! Checks of a value: it must be finite, not negative, and without gain of energy.
 
+use super::on_grid;
 use super::shape::points;
 use super::undefined::{situation, undefined_part};
 use qrt_syntax::expr::{Expr, Variable, Variables};
 use qrt_syntax::{Bsdf, Path, Problem};
 use std::cell::OnceCell;
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
 /// Minimum value below zero that counts as rounding. A constant has no rounding.
 const NEGATIVE: f64 = -1e-12;
@@ -63,12 +66,23 @@ fn seen(at: Variables, direction: [f64; 3], viewer: Viewer) -> Variables {
     }
 }
 
+/// True if `f` is the same in all directions of one height.
+fn is_round(f: &Expr) -> bool {
+    let set = f.variables(f.root());
+    !set.has_any(&[Variable::U, Variable::V, Variable::CosA])
+}
+
 /// Checks that `f` is finite and not negative at [`points`], for which the map has `directions`.
 pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Problem> {
     let viewers = viewers(f);
     let is_constant = f.constant().is_some();
+    let is_round = is_round(f);
+    let mut heights = HashSet::new();
     let mut room = Vec::new();
     for (at, direction) in points().zip(directions) {
+        if is_round && !heights.insert(direction[2].abs().to_bits()) {
+            continue;
+        }
         for viewer in &viewers {
             let at = seen(at, *direction, *viewer);
             let value = f.eval_in(&at, &mut room);
@@ -96,11 +110,14 @@ pub(super) fn value(directions: &[[f64; 3]], f: &Expr, path: &Path) -> Option<Pr
 #[derive(Default)]
 pub(super) struct Quadrature {
     rules: [OnceCell<Vec<Sample>>; 4],
+    /// The same rules with one sample a height.
+    by_height: [OnceCell<Vec<Sample>>; 4],
 }
 
 /// A map and its `J |phi_z|`, the same for all calls of a quadrature.
 type Mapped<'a> = (&'a [Expr; 3], &'a Expr);
 
+#[derive(Clone)]
 struct Sample {
     at: Variables,
     direction: [f64; 3],
@@ -115,34 +132,49 @@ impl Quadrature {
         self.rules[rule].get_or_init(|| {
             let n = 48_u32 << rule;
             let centre = |k| (f64::from(k) + 0.5) / f64::from(n);
-            let mut room = Vec::new();
-            let mut samples = Vec::with_capacity((n * n) as usize);
-            for i in 0..n {
-                for j in 0..n {
-                    let at = Variables {
-                        u: centre(i),
-                        v: centre(j),
-                        ..Variables::default()
-                    };
-                    let direction = map.each_ref().map(|c| c.eval_in(&at, &mut room));
-                    let area = projected_jacobian.eval_in(&at, &mut room);
-                    let area = area / f64::from(n * n);
-                    samples.push(Sample {
-                        at,
-                        direction,
-                        area,
-                    });
+            let centres: Vec<f64> = (0..n).map(centre).collect();
+            let sample = |row: usize, column: usize, direction, area: f64| Sample {
+                at: Variables {
+                    u: centres[row],
+                    v: centres[column],
+                    ..Variables::default()
+                },
+                direction,
+                area: area / f64::from(n * n),
+            };
+            on_grid(map, projected_jacobian, (&centres, &centres), sample)
+        })
+    }
+
+    /// Returns the samples of a rule, those of one height merged.
+    fn rule_by_height(&self, of: Mapped<'_>, rule: usize) -> &[Sample] {
+        self.by_height[rule].get_or_init(|| {
+            let mut merged: Vec<Sample> = Vec::new();
+            let mut places: HashMap<u64, usize> = HashMap::new();
+            for sample in self.rule(of, rule) {
+                let height = sample.direction[2].abs().to_bits();
+                match places.entry(height) {
+                    Entry::Occupied(place) => merged[*place.get()].area += sample.area,
+                    Entry::Vacant(free) => {
+                        free.insert(merged.len());
+                        merged.push(sample.clone());
+                    }
                 }
             }
-            samples
+            merged
         })
     }
 
     /// Returns the fraction of uniform incident light that leaves towards `viewer`.
     fn albedo(&self, of: Mapped<'_>, f: &Expr, viewer: Viewer, rule: usize) -> f64 {
+        let samples = if is_round(f) {
+            self.rule_by_height(of, rule)
+        } else {
+            self.rule(of, rule)
+        };
         let mut room = Vec::new();
         let light = |s: &Sample| f.eval_in(&seen(s.at, s.direction, viewer), &mut room) * s.area;
-        self.rule(of, rule).iter().map(light).sum()
+        samples.iter().map(light).sum()
     }
 
     /// Checks that no viewer sees more light leave than arrives: `integral f |phi_z| J du dv <= 1`.

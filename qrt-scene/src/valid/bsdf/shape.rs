@@ -3,7 +3,7 @@
 use super::undefined::undefined_part;
 use crate::sampling::maps;
 use glam::DVec3;
-use qrt_syntax::expr::{Expr, Variable, Variables};
+use qrt_syntax::expr::{Expr, OnGrid, Variable, Variables};
 use qrt_syntax::{Bsdf, Mistake, Path, Problem};
 
 /// Maximum deviation of a direction's length from 1.
@@ -18,7 +18,7 @@ const CENTRES: usize = 52;
 
 /// Points of the open unit interval: 52 cell centres, and the neighbourhood of both ends, where
 /// maps have their poles.
-fn ticks() -> Vec<f64> {
+pub(super) fn ticks() -> Vec<f64> {
     let near = [6, 8, 10, 13, 17, 22].map(|k| f64::from(k).exp2().recip());
     let centres = (0..CENTRES).map(|i| (i as f64 + 0.5) / CENTRES as f64);
     let ends = near.into_iter().chain(near.into_iter().map(|x| 1.0 - x));
@@ -57,37 +57,54 @@ impl Slopes {
 /// collapse to a line.
 pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
+    let ticks = ticks();
     let slopes = Slopes::from_map(map);
-    let mut room = Vec::new();
+    let on_grid = |expr| OnGrid::new(expr, &ticks);
+    let mut components = map.each_ref().map(on_grid);
+    let [mut along_u, mut along_v] =
+        [0, 1].map(|axis: usize| slopes.0.each_ref().map(|slope| on_grid(&slope[axis])));
     let mut flat = Vec::new();
-    for at in points() {
-        let mut direction = [0.0; 3];
-        for (i, component) in map.iter().enumerate() {
-            direction[i] = component.eval_in(&at, &mut room);
-            let what = if direction[i].is_finite() {
-                undefined_part(component, &at, &room)
-            } else {
-                let at = [at.u, at.v];
-                Some(Bsdf::NoDirection { at })
-            };
-            if let Some(what) = what {
-                return Some(Problem::new(root.item(i), what));
+    for &u in &ticks {
+        for grid in [&mut components, &mut along_u, &mut along_v]
+            .into_iter()
+            .flatten()
+        {
+            grid.set_u(u);
+        }
+        for (column, &v) in ticks.iter().enumerate() {
+            let at = [u, v];
+            let mut direction = [0.0; 3];
+            for (i, component) in components.iter_mut().enumerate() {
+                direction[i] = component.value(column);
+                let what = if direction[i].is_finite() {
+                    let at = Variables {
+                        u,
+                        v,
+                        ..Variables::default()
+                    };
+                    undefined_part(&map[i], &at, component.values())
+                } else {
+                    Some(Bsdf::NoDirection { at })
+                };
+                if let Some(what) = what {
+                    return Some(Problem::new(root.item(i), what));
+                }
             }
-        }
-        let off = DVec3::from(direction).length() - 1.0;
-        if off.abs() > OFF_SPHERE {
-            let at = [at.u, at.v];
-            return Some(Problem::new(root, Bsdf::OffSphere { off, at }));
-        }
-        let [along_u, along_v] = slopes.at(&at, &mut room);
-        for i in 0..3 {
-            if !(along_u[i].is_finite() && along_v[i].is_finite()) {
-                let at = [at.u, at.v];
-                return Some(Problem::new(root.item(i), Bsdf::NoSlope { at }));
+            let off = DVec3::from(direction).length() - 1.0;
+            if off.abs() > OFF_SPHERE {
+                return Some(Problem::new(root, Bsdf::OffSphere { off, at }));
             }
+            let [along_u, along_v] = [&mut along_u, &mut along_v]
+                .map(|slopes| DVec3::from(slopes.each_mut().map(|slope| slope.value(column))));
+            for i in 0..3 {
+                if !(along_u[i].is_finite() && along_v[i].is_finite()) {
+                    return Some(Problem::new(root.item(i), Bsdf::NoSlope { at }));
+                }
+            }
+            let area = along_u.cross(along_v).length();
+            let is_flat = area <= PARALLEL * along_u.length() * along_v.length();
+            flat.push((is_flat, at));
         }
-        let area = along_u.cross(along_v).length();
-        flat.push((area <= PARALLEL * along_u.length() * along_v.length(), at));
     }
     // A line of flat points is harmless, an area is not: four adjacent flat cells are an area.
     let side = flat.len().isqrt();
@@ -95,8 +112,7 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     for i in 1..CENTRES {
         for j in 1..CENTRES {
             if is_flat(i, j) && is_flat(i - 1, j) && is_flat(i, j - 1) && is_flat(i - 1, j - 1) {
-                let at = flat[i * side + j].1;
-                let around = [at.u, at.v];
+                let around = flat[i * side + j].1;
                 return Some(Problem::new(root, Bsdf::Flat { around }));
             }
         }
