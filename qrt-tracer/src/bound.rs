@@ -38,7 +38,13 @@ pub(crate) fn colour<const C: usize>(
     let mut beyond = vec![[0.0; C]; places.len()];
     // From the last vertex back to the first.
     for scatter in scatters.iter().rev() {
-        let goes_on = beyond.iter().any(|after| *after != [0.0; C]);
+        let greatest = |places: &mut dyn Iterator<Item = usize>| {
+            let most = |most: [f64; C], place: usize| {
+                std::array::from_fn(|c| f64::max(most[c], beyond[place][c]))
+            };
+            places.fold([0.0; C], most)
+        };
+        let greatest_of_all = greatest(&mut (0..places.len()));
         let at = |place: usize| {
             let surface = places.surface(place);
             let mut weight = scatter.weight_bound(surface);
@@ -48,14 +54,14 @@ pub(crate) fn colour<const C: usize>(
             let samples = scatter.samples_lights(surface);
             let lights = scatter.lights.as_ref();
             let counts = lights.map_or(1.0, |l| l.sun_bound(places, place, samples));
-            let mut most: [f64; C] = std::array::from_fn(|c| sky[c] + counts * sun[c]);
             let next = places.next(place);
-            if goes_on {
-                for &other in next {
-                    let after = &beyond[other as usize];
-                    most = std::array::from_fn(|c| f64::max(most[c], after[c]));
-                }
-            }
+            let after = if next.len() == places.len() || greatest_of_all == [0.0; C] {
+                greatest_of_all
+            } else {
+                greatest(&mut next.iter().map(|&other| other as usize))
+            };
+            let mut most: [f64; C] =
+                std::array::from_fn(|c| f64::max(sky[c] + counts * sun[c], after[c]));
             for &lamp in lamps.iter().filter(|lamp| next.binary_search(lamp).is_ok()) {
                 let lamp = lamp as usize;
                 let factor = lights.map_or(1.0, |lights| {

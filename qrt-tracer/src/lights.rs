@@ -68,7 +68,7 @@ impl Lamps {
     /// that samples lamps has no emitter of that kind.
     pub(super) fn new(
         (geometry, smooth): (&StageGeometry, Option<&SmoothStage>),
-        (surfaces, may_sample): (&[&Surface], impl Fn(&Surface) -> bool),
+        (surfaces, may_sample): (&[&Surface], impl Fn(&Surface) -> bool + Sync),
         surface_of: &[u32],
         places: &Places,
         sun: Option<&(Cone, Rgb)>,
@@ -130,7 +130,7 @@ impl Lamps {
             };
             faces.iter().map(all).collect()
         };
-        let mut reached: Vec<Vec<Reached>> = (0..surfaces.len()).map(reached).collect();
+        let mut reached: Vec<Vec<Reached>> = lights::bounds(surfaces.len(), 1, reached);
         let number = faces.len();
         let forms = |(lamp, face): (usize, &u32)| {
             let by_surface = |surface: u32| {

@@ -12,7 +12,7 @@
 use super::geometry::StageGeometry;
 use super::polygon::FaceFrame;
 use glam::DVec3;
-use qrt_scene::lights::strongest_form;
+use qrt_scene::lights::{bounds, strongest_form};
 
 /// Most faces whose sides are distinguished.
 const MOST_FACES: usize = 512;
@@ -65,10 +65,9 @@ impl Places {
             return Self::surfaces(surfaces);
         }
         // By face and other face: true if a corner of the other is in front of the face, and behind it.
-        let mut apart = Vec::with_capacity(faces * faces);
-        for face in 0..faces {
+        let of_plane = |face: usize| {
             let FaceFrame { normal, centre, .. } = geometry.frame(face);
-            apart.extend(geometry.corners.iter().map(|points| {
+            let sides = geometry.corners.iter().map(|points| {
                 let mut sides = [false; 2];
                 for point in points {
                     let rise = normal.dot(*point - centre);
@@ -76,20 +75,22 @@ impl Places {
                     sides[1] |= -rise > SLACK;
                 }
                 sides
-            }));
-        }
+            });
+            sides.collect::<Vec<[bool; 2]>>()
+        };
+        let apart = bounds(faces, 64, of_plane);
         let mut next = Vec::with_capacity(2 * faces);
         for own in 0..faces {
             let mut met = [(); 2].map(|()| Vec::with_capacity(faces));
             for face in 0..faces {
-                let [front, back] = apart[own * faces + face];
+                let [front, back] = apart[own][face];
                 let leaves = if transmits[own] {
                     [front || back; 2]
                 } else {
                     [front, back]
                 };
                 // The sides of the other face on which the own face has a corner.
-                let sides = apart[face * faces + own];
+                let sides = apart[face][own];
                 for (met, leaves) in met.iter_mut().zip(leaves) {
                     for (side, is_met) in (2 * face as u32..).zip(sides) {
                         if leaves && is_met {
@@ -160,9 +161,13 @@ impl Places {
         &self,
         geometry: &StageGeometry,
         (lamp, lamps): (u32, usize),
-        is_smooth: impl Fn(u32) -> bool,
-        by_surface: impl Fn(u32) -> Option<f64>,
+        is_smooth: impl Fn(u32) -> bool + Sync,
+        by_surface: impl Fn(u32) -> Option<f64> + Sync,
     ) -> Vec<f64> {
+        if self.seen.is_none() {
+            let known = |surface: &u32| by_surface(*surface).unwrap_or(f64::INFINITY);
+            return self.surfaces.iter().map(known).collect();
+        }
         // Lamps are spheres only where places are whole surfaces.
         let lamp = geometry.corners.get(lamp as usize).unwrap_or_default();
         let parts = (MOST_PARTS / (self.len() * lamps)).max(FEWEST_PARTS);
@@ -170,7 +175,7 @@ impl Places {
             let Some(known) = by_surface(self.surfaces[place]) else {
                 return f64::INFINITY;
             };
-            if self.seen.is_none() || known == 0.0 {
+            if known == 0.0 {
                 known
             } else if before(geometry, place, lamp) {
                 let (face, smooth) = (place / 2, is_smooth(place as u32 / 2));
@@ -179,7 +184,7 @@ impl Places {
                 0.0
             }
         };
-        (0..self.len()).map(of).collect()
+        bounds(self.len(), 8, of)
     }
 }
 

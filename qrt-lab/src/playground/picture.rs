@@ -24,7 +24,7 @@ pub(super) struct Picture {
     seed: u64,
     film: [u32; 2],
     pixels: Vec<[u32; 2]>,
-    /// By pixel, the sums over its traced paths.
+    /// By pixel, up to the last one of which paths are traced, the sums over its traced paths.
     tallies: Vec<Tally>,
     /// By pixel, the number of traced paths.
     paths: Vec<u64>,
@@ -95,8 +95,6 @@ impl Picture {
         let all = (0..film[1]).flat_map(|y| (0..film[0]).map(move |x| [x, y]));
         let pixels: Vec<[u32; 2]> = all.skip(part as usize).step_by(parts as usize).collect();
         let comparator_bits = written.comparator.bits;
-        // The number of thresholds is the same in every class.
-        let none = Tally::empty(&[machines.at([0, 0]).comparators]);
         Ok(Self {
             machines,
             counting: written.counting,
@@ -104,7 +102,7 @@ impl Picture {
             path_bits: written.sampling.path_bits,
             seed,
             film,
-            tallies: vec![none; pixels.len()],
+            tallies: Vec::new(),
             paths: vec![0; pixels.len()],
             estimated: vec![([0.0; 3], 0); pixels.len()],
             pixels,
@@ -167,8 +165,16 @@ impl Picture {
             let pixels = &self.pixels[range.clone()];
             let trace = |machine: &Machine, pixels: &[_]| machine.tallies(pixels, before..until);
             let found = self.machines.apart(pixels, trace)?;
-            for (place, more) in range.clone().zip(&found) {
-                self.tallies[place].add(more);
+            if self.tallies.len() < range.end {
+                self.tallies.resize_with(range.end, Tally::default);
+            }
+            for (place, more) in range.clone().zip(found) {
+                let tally = &mut self.tallies[place];
+                if before == 0 {
+                    *tally = more;
+                } else {
+                    tally.add(&more);
+                }
                 self.paths[place] = until;
             }
         }
@@ -197,13 +203,14 @@ impl Picture {
         Ok(traced.number("sum", sum).number("squares", squares))
     }
 
+    /// The mean of the traced paths of a pixel; black before the first.
     fn mean(&self, place: usize) -> [f64; 3] {
         let machine = self.machine(self.pixels[place]);
-        machine.mean(
-            &self.tallies[place],
-            self.paths[place].max(1),
-            self.comparator_bits,
-        )
+        let paths = self.paths[place];
+        if paths == 0 {
+            return [0.0; 3];
+        }
+        machine.mean(&self.tallies[place], paths, self.comparator_bits)
     }
 
     /// Estimates these pixels anew from all their paths, as `qrt render` does with `phase_bits`
