@@ -98,7 +98,7 @@ pub(crate) fn run(_: &Arguments, promises: &mut Promises) {
     let mut random = Series::new("random paths");
     let mut lattice = Series::new("product lattice");
     for bits in 6..=18 {
-        let valid = scene(SCENE, &asking(DEPTH, bits, "none"));
+        let valid = scene(SCENE, &asking(10, DEPTH, bits, "none"));
         judge.add(&mut net, bits, &traced(&valid, 1));
         let machine = match Real::new(&valid, 1) {
             Ok(machine) => machine.monte_carlo(1 << bits),

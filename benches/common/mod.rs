@@ -97,6 +97,11 @@ impl Arguments {
         self.words.first().map(String::as_str)
     }
 
+    /// Returns the words behind the parts' names.
+    pub(crate) fn words(&self) -> &[String] {
+        &self.words
+    }
+
     /// Returns the file of `--csv`.
     pub(crate) fn csv(&self) -> Option<&str> {
         self.file.as_deref()

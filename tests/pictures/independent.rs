@@ -60,13 +60,13 @@ pub(crate) fn reference(scene: &str, depth: usize) -> Reference {
 }
 
 /// Returns the overrides for `depth` rays and `2^path_bits` paths, with 16 bits for each coordinate in the
-/// pixel and 10 for those of directions; and 10 for those of lamps, if `lights` samples them.
-pub(crate) fn asking(depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
+/// pixel and `bits` for those of directions; and for those of lamps, if `lights` samples them.
+pub(crate) fn asking(bits: u32, depth: usize, path_bits: u32, lights: &str) -> Vec<String> {
     let light = match lights {
-        "none" => "",
-        _ => ", light: [10, 10]",
+        "none" => String::new(),
+        _ => format!(", light: [{bits}, {bits}]"),
     };
-    let directions = format!(", {{bits: [10, 10]{light}}}").repeat(depth - 1);
+    let directions = format!(", {{bits: [{bits}, {bits}]{light}}}").repeat(depth - 1);
     vec![
         format!("sampling.depths=[{{bits: [16, 16]}}{directions}]"),
         format!("sampling.path_bits={path_bits}"),

@@ -69,7 +69,7 @@ fn compare(ours: &Measured, theirs: &Reference) -> Result<(), String> {
 /// promised RMSE over the mean with 2^18 paths.
 fn agrees(name: &str, path_bits: u32, promise: f64) {
     agrees_with(name, path_bits, promise, |depth| {
-        independent::asking(depth, path_bits, "none")
+        independent::asking(10, depth, path_bits, "none")
     });
 }
 
@@ -78,7 +78,7 @@ fn agrees_by_lamps(name: &str, promise: f64) {
     for lights in ["auto", "mis"] {
         // `agrees` states it for 2^18 paths, with an error that falls like that of random ones.
         agrees_with(name, 11, promise / 8.0, |depth| {
-            independent::asking(depth, 11, lights)
+            independent::asking(10, depth, 11, lights)
         });
     }
 }
@@ -231,7 +231,7 @@ fn a_sun_agrees() {
 fn a_terrace_agrees() {
     for depth in 1..=6 {
         for lights in ["auto", "mis"] {
-            let asking = independent::asking(depth, 11, lights);
+            let asking = independent::asking(10, depth, 11, lights);
             agrees_at("terrace", depth, 11, 0.1, &asking);
         }
     }
@@ -243,7 +243,7 @@ fn metal_agrees() {
     for name in ["metals", "workshop"] {
         for depth in 1..=6 {
             for lights in ["none", "mis"] {
-                let asking = independent::asking(depth, 10, lights);
+                let asking = independent::asking(10, depth, 10, lights);
                 agrees_at(name, depth, 10, 0.02, &asking);
             }
         }
@@ -262,7 +262,7 @@ fn a_room_in_blenders_form_agrees() {
 fn the_furnace_is_exact_at_every_depth() {
     let (radiance, albedo) = ([1.0, 0.5, 0.25], [0.25, 0.5, 0.8]);
     for depth in 1..=16 {
-        let scene = independent::scene("furnace", &independent::asking(depth, 5, "none"));
+        let scene = independent::scene("furnace", &independent::asking(10, depth, 5, "none"));
         let exact: [f64; 3] = std::array::from_fn(|c| {
             radiance[c] * (1.0 - f64::powi(albedo[c], depth as i32)) / (1.0 - albedo[c])
         });
@@ -291,7 +291,7 @@ fn the_floor_is_its_closed_form_at_every_depth_and_by_every_map() {
     let exact = floor(1.0);
     for map in ["auto", "cosine-hemisphere", "uniform-hemisphere"] {
         for depth in 2..=4 {
-            let mut sets = independent::asking(depth, 14, "none");
+            let mut sets = independent::asking(10, depth, 14, "none");
             sets.push(format!("sampling.depths[1].map={map}"));
             let ours = measure(&independent::scene("floorlight", &sets));
             assert_eq!(compare(&ours, &exact), Ok(()), "{map} D={depth}");
@@ -305,7 +305,7 @@ const UNIFORM: &str = "['sqrt(1-u^2)*cos(2*pi*v)', 'sqrt(1-u^2)*sin(2*pi*v)', 'u
 /// Renders the floor with a user-defined BSDF, whose values hold half of the scene's albedo.
 fn floor_of(map: &str, value: &str) -> Measured {
     let values = [0.4, 0.25, 0.1].map(|half| format!("\"{half}*({value})\""));
-    let mut sets = independent::asking(2, 14, "none");
+    let mut sets = independent::asking(10, 2, 14, "none");
     sets.push(format!(
         "materials.floor={{ bsdf: {{ map: {map}, value: [{}] }} }}",
         values.join(", ")
@@ -335,7 +335,7 @@ fn a_wrong_cosine_or_jacobian_would_be_noticed() {
 #[test]
 fn a_flipped_picture_or_swapped_channels_would_be_noticed() {
     let side = SIDE as usize;
-    let scene = independent::scene("cornell", &independent::asking(3, 13, "none"));
+    let scene = independent::scene("cornell", &independent::asking(10, 3, 13, "none"));
     let reference = independent::reference("cornell", 3);
     let right = measure(&scene);
     assert_eq!(compare(&right, &reference), Ok(()));
