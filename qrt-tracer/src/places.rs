@@ -65,7 +65,7 @@ impl Places {
             return Self::surfaces(surfaces);
         }
         // By face and other face: true if a corner of the other is in front of the face, and behind it.
-        let of_plane = |face: usize| {
+        let of_plane = |face: usize| -> Vec<[bool; 2]> {
             let FaceFrame { normal, centre, .. } = geometry.frame(face);
             let sides = geometry.corners.iter().map(|points| {
                 let mut sides = [false; 2];
@@ -76,21 +76,21 @@ impl Places {
                 }
                 sides
             });
-            sides.collect::<Vec<[bool; 2]>>()
+            sides.collect()
         };
-        let apart = bounds(faces, 64, of_plane);
+        let apart = bounds(faces, 64, of_plane).concat();
         let mut next = Vec::with_capacity(2 * faces);
         for own in 0..faces {
             let mut met = [(); 2].map(|()| Vec::with_capacity(faces));
             for face in 0..faces {
-                let [front, back] = apart[own][face];
+                let [front, back] = apart[own * faces + face];
                 let leaves = if transmits[own] {
                     [front || back; 2]
                 } else {
                     [front, back]
                 };
                 // The sides of the other face on which the own face has a corner.
-                let sides = apart[face][own];
+                let sides = apart[face * faces + own];
                 for (met, leaves) in met.iter_mut().zip(leaves) {
                     for (side, is_met) in (2 * face as u32..).zip(sides) {
                         if leaves && is_met {

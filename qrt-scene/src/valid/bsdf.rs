@@ -160,7 +160,9 @@ fn on_grid<T>(
     let mut other = OnGrid::new(other, columns);
     let mut all = Vec::with_capacity(rows.len() * columns.len());
     for (row, &u) in rows.iter().enumerate() {
-        components.iter_mut().for_each(|grid| grid.set_u(u));
+        for grid in &mut components {
+            grid.set_u(u);
+        }
         other.set_u(u);
         for column in 0..columns.len() {
             let direction = components.each_mut().map(|grid| grid.value(column));
