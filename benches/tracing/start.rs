@@ -1,7 +1,7 @@
 //! Time before the first path of lit scenes.
 //!
-//! `cargo bench --bench tracing -- start` prints milliseconds, for each scene of `scenes-yaml` that has a lamp to
-//! sample, with its lamps sampled:
+//! `cargo bench --bench tracing -- start` prints milliseconds, for each scene of `scenes-yaml`, with its lamps
+//! sampled if it has any:
 //!
 //! - `command` and `unlit`: the whole command on 4 pixels with 2 paths each, the start of the process and the saving of
 //!   the picture included, with and without light sampling.
@@ -11,8 +11,11 @@
 //! Then it does so for a lit scene of `qrt!`: from the program to the first path of its circuit, and of floating point.
 //! Each figure is the least of several processes, in which nothing is known before.
 //!
-//! It fails if light sampling adds more than 10 ms to a command, or if more than 10 ms pass before the first path; 20
-//! with a user-defined BSDF, whose formulas are checked and bounded first.
+//! `-- start file:velvet` prints the seconds of one start alone; so do `playground:NAME`, `macro:compiled` and
+//! `macro:real`.
+//!
+//! It fails if light sampling adds more than 10 ms to a command, or if more than 10 ms pass before the first path: 20 ms
+//! where the formulas of a user-defined BSDF are checked and bounded first.
 
 use crate::common::{Arguments, Promises};
 use qrt::lab::playground::Playground;
@@ -71,19 +74,15 @@ pub(crate) fn run(arguments: &Arguments, promises: &mut Promises) {
     scenes.sort_unstable();
     println!("  milliseconds    command    unlit     file   playground");
     for name in scenes {
-        let runs = (0..RUNS).map(|_| {
-            Some([
-                command(name, "auto")?,
-                command(name, "none")?,
+        let run = |_| {
+            [
+                command(name, "auto"),
+                command(name, "none"),
                 alone(&format!("file:{name}")),
                 alone(&format!("playground:{name}")),
-            ])
-        });
-        // Some scenes have no lamp that could be sampled, or no rays after the camera's.
-        let Some(runs) = runs.collect::<Option<Vec<_>>>() else {
-            println!("  {name:16} is drawn in one of both ways only");
-            continue;
+            ]
         };
+        let runs: Vec<_> = (0..RUNS).map(run).collect();
         let [lit, unlit, file, playground] = least(&runs);
         println!(
             "  {name:16} {:8.1} {:8.1} {:8.1} {:12.1}",
@@ -124,22 +123,19 @@ fn least<const N: usize>(runs: &[[f64; N]]) -> [f64; N] {
     std::array::from_fn(of)
 }
 
-/// Returns the seconds of the command, or nothing if it refuses the scene.
-fn command(name: &str, lights: &str) -> Option<f64> {
+/// Returns the seconds of the command.
+fn command(name: &str, lights: &str) -> f64 {
     let picture = std::env::temp_dir().join("qrt-bench-start.png");
     let lights = format!("sampling.lights={lights}");
     let mut command = Command::new(env!("CARGO_BIN_EXE_qrt"));
-    command
-        .arg("render")
-        .arg(file(name))
-        .arg("-o")
-        .arg(&picture);
+    command.args(["render", "-q"]);
+    command.arg(file(name)).arg("-o").arg(&picture);
     command.args(FEW.iter().chain([&&*lights]).flat_map(|set| ["--set", set]));
-    command.stdout(Stdio::null()).stderr(Stdio::null());
     let begun = Instant::now();
     let ended = command.status().expect("the command runs");
     let seconds = begun.elapsed().as_secs_f64();
-    ended.success().then_some(seconds)
+    assert!(ended.success(), "the command refuses {name}");
+    seconds
 }
 
 fn file(name: &str) -> PathBuf {
@@ -149,7 +145,11 @@ fn file(name: &str) -> PathBuf {
 /// Returns what [`seconds_of`] measures in a process of its own.
 fn alone(start: &str) -> f64 {
     let itself = std::env::current_exe().expect("the bench's path");
-    let ran = Command::new(itself).args(["start", start]).output();
+    let mut child = Command::new(itself);
+    let ran = child
+        .args(["start", start])
+        .stderr(Stdio::inherit())
+        .output();
     let printed = ran.expect("the bench runs").stdout;
     let printed = String::from_utf8_lossy(&printed);
     let last = printed.lines().last().unwrap_or_default();

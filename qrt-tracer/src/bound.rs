@@ -38,11 +38,11 @@ pub(crate) fn colour<const C: usize>(
     let mut beyond = vec![[0.0; C]; places.len()];
     // From the last vertex back to the first.
     for scatter in scatters.iter().rev() {
-        let greatest = |places: &mut dyn Iterator<Item = usize>| {
+        let greatest = |after: &mut dyn Iterator<Item = usize>| {
             let most = |most: [f64; C], place: usize| {
                 std::array::from_fn(|c| f64::max(most[c], beyond[place][c]))
             };
-            places.fold([0.0; C], most)
+            after.fold([0.0; C], most)
         };
         let greatest_of_all = greatest(&mut (0..places.len()));
         let at = |place: usize| {

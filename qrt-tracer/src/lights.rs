@@ -130,16 +130,12 @@ impl Lamps {
             };
             faces.iter().map(all).collect()
         };
-        let mut reached: Vec<Vec<Reached>> = lights::bounds(surfaces.len(), 1, reached);
-        let number = faces.len();
-        let forms = |(lamp, face): (usize, &u32)| {
-            let by_surface = |surface: u32| {
-                let surface = surface as usize;
-                may_sample(surfaces[surface]).then(|| reached[surface][lamp].form)
-            };
-            places.lit_by(geometry, (*face, number), is_smooth, by_surface)
+        let mut reached: Vec<Vec<Reached>> = lights::on_all_cores(surfaces.len(), 1, reached);
+        let by_surface = |surface: u32, lamp: usize| {
+            let surface = surface as usize;
+            may_sample(surfaces[surface]).then(|| reached[surface][lamp].form)
         };
-        let mut forms: Vec<Vec<f64>> = faces.iter().enumerate().map(forms).collect();
+        let mut forms = places.lit_by(geometry, &faces, is_smooth, by_surface);
         if let Some((cone, _)) = sun {
             // Spheres and smooth faces have all normals.
             let of_side = |face: usize, side: f64| {

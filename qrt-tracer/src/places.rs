@@ -12,7 +12,7 @@
 use super::geometry::StageGeometry;
 use super::polygon::FaceFrame;
 use glam::DVec3;
-use qrt_scene::lights::{bounds, strongest_form};
+use qrt_scene::lights::{on_all_cores, strongest_form};
 
 /// Most faces whose sides are distinguished.
 const MOST_FACES: usize = 512;
@@ -78,7 +78,7 @@ impl Places {
             });
             sides.collect()
         };
-        let apart = bounds(faces, 64, of_plane).concat();
+        let apart = on_all_cores(faces, 64, of_plane).concat();
         let mut next = Vec::with_capacity(2 * faces);
         for own in 0..faces {
             let mut met = [(); 2].map(|()| Vec::with_capacity(faces));
@@ -154,37 +154,45 @@ impl Places {
         (0..self.len()).map(of).collect()
     }
 
-    /// An upper bound of `q / r^4` by place, for the light of face `lamp`, one of `lamps` lamps.
-    /// `is_smooth` is true for faces with interpolated normals. `by_surface` gives the bound of a surface, or `None` if
-    /// the surface samples no lamps: its places have no bound.
+    /// Upper bounds of `q / r^4` by lamp and place, for the light of the faces `lamps`.
+    /// `is_smooth` is true for faces with interpolated normals. `by_surface` gives the bound of a surface for a lamp's
+    /// number, or `None` if the surface samples no lamps: its places have no bound.
     pub(crate) fn lit_by(
         &self,
         geometry: &StageGeometry,
-        (lamp, lamps): (u32, usize),
+        lamps: &[u32],
         is_smooth: impl Fn(u32) -> bool + Sync,
-        by_surface: impl Fn(u32) -> Option<f64> + Sync,
-    ) -> Vec<f64> {
-        if self.seen.is_none() {
-            let known = |surface: &u32| by_surface(*surface).unwrap_or(f64::INFINITY);
-            return self.surfaces.iter().map(known).collect();
+        by_surface: impl Fn(u32, usize) -> Option<f64> + Sync,
+    ) -> Vec<Vec<f64>> {
+        let places = self.len();
+        if places == 0 || lamps.is_empty() {
+            return vec![Vec::new(); lamps.len()];
         }
-        // Lamps are spheres only where places are whole surfaces.
-        let lamp = geometry.corners.get(lamp as usize).unwrap_or_default();
-        let parts = (MOST_PARTS / (self.len() * lamps)).max(FEWEST_PARTS);
-        let of = |place: usize| {
-            let Some(known) = by_surface(self.surfaces[place]) else {
+        let parts = (MOST_PARTS / (places * lamps.len())).max(FEWEST_PARTS);
+        let of = |pair: usize| {
+            let (number, place) = (pair / places, pair % places);
+            let Some(known) = by_surface(self.surfaces[place], number) else {
                 return f64::INFINITY;
             };
-            if known == 0.0 {
-                known
-            } else if before(geometry, place, lamp) {
+            if self.seen.is_none() || known == 0.0 {
+                return known;
+            }
+            // Where places are sides, lamps are polygons.
+            let lamp = &geometry.corners[lamps[number] as usize];
+            if before(geometry, place, lamp) {
                 let (face, smooth) = (place / 2, is_smooth(place as u32 / 2));
                 known.min(strongest_form(&geometry.corners[face], smooth, lamp, parts))
             } else {
                 0.0
             }
         };
-        bounds(self.len(), 8, of)
+        let count = lamps.len() * places;
+        let all = if self.seen.is_some() {
+            on_all_cores(count, 8, of)
+        } else {
+            (0..count).map(of).collect()
+        };
+        all.chunks(places).map(<[f64]>::to_vec).collect()
     }
 }
 

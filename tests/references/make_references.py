@@ -64,7 +64,10 @@ mi.register_bsdf("smoothmetal", SmoothMetal)
 def smooth(text):
     """Replaces metal of roughness 0 by smooth metal."""
     metal = r'<bsdf type="principled">(.*?)<float name="metallic" value="1"/><float name="roughness" value="0"/>'
-    return re.sub(metal, r'<bsdf type="smoothmetal">\1', text)
+    replaced = re.sub(metal, r'<bsdf type="smoothmetal">\1', text)
+    if replaced != text and not mi.variant().startswith("llvm"):
+        sys.exit("smooth metal needs MITSUBA_VARIANT=llvm_ad_rgb")
+    return replaced
 
 
 def main(qrt, runs, samples, most, *names):

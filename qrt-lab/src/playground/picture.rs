@@ -161,7 +161,7 @@ impl Picture {
             .count();
         let range = range.start..range.start + alike;
         let until = 1_u64 << bits.min(self.path_bits);
-        if before < until {
+        if before < until && !range.is_empty() {
             let pixels = &self.pixels[range.clone()];
             let trace = |machine: &Machine, pixels: &[_]| machine.tallies(pixels, before..until);
             let found = self.machines.apart(pixels, trace)?;
@@ -250,7 +250,8 @@ impl Picture {
             count: 1,
             total: all << self.comparator_bits,
         };
-        let tallies = &self.tallies[range.clone()];
+        // No pixel, or pixels whose paths are all traced.
+        let tallies = self.tallies.get(range.clone()).unwrap_or_default();
         let drawn = if counting.reads_levels() {
             let levels: Vec<_> = tallies.iter().map(|t| t.levels.clone()).collect();
             draws.draw(pixels, &Countable::Levels(&levels))?

@@ -225,6 +225,10 @@ fn what_cannot_be_answered_says_why() {
     assert!(refused("open", &[0.0, 0.0, 0.0, 1.0], &huge).contains("qrt render"));
     assert_eq!(refused("open", &[0.0, 0.0, 0.0, 1.0], FLOOR), "");
     assert!(refused("estimate", &[0.0, 1.0, 7.0], "").contains("traced first"));
+    for nothing in [[1.0, 0.0, 7.0], [1e6, 1.0, 7.0]] {
+        assert_eq!(refused("estimate", &nothing, ""), "");
+        assert_eq!(refused("trace", &nothing, ""), "");
+    }
     assert_eq!(refused("trace", &[0.0, 1.0, 40.0], ""), "");
     assert!(refused("estimate", &[0.0, 1.0, 41.0], "").contains("phase"));
     assert!(refused("estimate", &[0.0, 1.0, 7.0], "exact").contains("no estimator"));

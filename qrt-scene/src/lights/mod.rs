@@ -22,15 +22,15 @@ use glam::DVec3;
 use qrt_circuit::Cores;
 use std::f64::consts::PI;
 
-/// Returns `bound` of each number below `count`, on all cores: bounds take most of the time in which a lit scene is
-/// made ready. A thread takes `at_a_time` numbers at a time.
-pub fn bounds<T: Send>(
+/// Returns `of` each number below `count`, computed on all cores: bounds of light take most of the time in which a lit
+/// scene is made ready. A thread takes `at_a_time` numbers at a time.
+pub fn on_all_cores<T: Send>(
     count: usize,
     at_a_time: usize,
-    bound: impl Fn(usize) -> T + Sync,
+    of: impl Fn(usize) -> T + Sync,
 ) -> Vec<T> {
     let numbers: Vec<usize> = (0..count).collect();
-    Cores::All.map(&numbers, at_a_time, |&number| bound(number))
+    Cores::All.map(&numbers, at_a_time, |&number| of(number))
 }
 
 /// Maximum deviation of a parallelogram's corners, relative to its size.

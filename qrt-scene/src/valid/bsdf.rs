@@ -54,7 +54,7 @@ const LEAST_WORK: u64 = 1 << 18;
 const VALUES: u64 = 6400;
 /// Number of points at which a map and quantities derived from it are evaluated.
 const MAPPED: u64 = 1 << 17;
-/// Work that takes about a minute, and half a minute for most BSDFs.
+/// Work that takes at most about a minute, and a tenth of it for most BSDFs, whose parts read few variables.
 const MINUTE: u64 = 1 << 35;
 /// Maximum time of checking the BSDFs of a scene, in minutes.
 pub(super) const MOST_MINUTES: u64 = 10;

@@ -24,12 +24,14 @@ pub struct OnGrid<'e> {
     /// The nodes that are known by column, and their values: column by column.
     by_column: Vec<usize>,
     columns: Vec<f64>,
+    /// Number of columns.
+    width: usize,
     /// The values of all nodes at the last point.
     values: Vec<f64>,
 }
 
 impl<'e> OnGrid<'e> {
-    /// Prepares the columns `v`. Variables other than u and v are 0.
+    /// Prepares the columns `v`. Variables other than u and v are 0, and so is u until [`OnGrid::set_u`].
     pub fn new(expr: &'e Expr, v: &[f64]) -> Self {
         let mut grid = Self {
             expr,
@@ -37,6 +39,7 @@ impl<'e> OnGrid<'e> {
             by_point: Vec::new(),
             by_column: Vec::new(),
             columns: Vec::new(),
+            width: v.len(),
             values: vec![0.0; expr.nodes.len()],
         };
         for (node, set) in expr.node_variables().into_iter().enumerate() {
@@ -58,6 +61,7 @@ impl<'e> OnGrid<'e> {
                 grid.columns.push(grid.values[node]);
             }
         }
+        grid.set_u(0.0);
         grid
     }
 
@@ -82,6 +86,7 @@ impl<'e> OnGrid<'e> {
     ///
     /// Panics if there is no such column.
     pub fn value(&mut self, column: usize) -> f64 {
+        assert!(column < self.width, "column {column} of {}", self.width);
         let known = &self.columns[column * self.by_column.len()..][..self.by_column.len()];
         for (&node, &value) in self.by_column.iter().zip(known) {
             self.values[node] = value;

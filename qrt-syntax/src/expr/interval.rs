@@ -351,20 +351,20 @@ impl Interval {
     /// The power by the interval products of repeated squaring, so that their rounding is covered.
     fn positive_powi(self, n: u32) -> Self {
         let power = |x: f64| {
-            let mut result: Option<Self> = None;
             let mut square = Self::point(x);
-            let mut bits = n;
-            loop {
-                if bits & 1 != 0 {
-                    result = Some(result.map_or(square, |result| result.times(square)));
-                }
-                bits >>= 1;
-                if bits == 0 {
-                    break;
-                }
+            for _ in 0..n.trailing_zeros() {
                 square = square.times(square);
             }
-            result.unwrap_or(Self::point(1.0))
+            let mut result = square;
+            let mut bits = n.checked_shr(n.trailing_zeros() + 1).unwrap_or(0);
+            while bits != 0 {
+                square = square.times(square);
+                if bits & 1 != 0 {
+                    result = result.times(square);
+                }
+                bits >>= 1;
+            }
+            result
         };
         let base = if n.is_multiple_of(2) {
             self.abs()

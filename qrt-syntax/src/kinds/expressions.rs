@@ -187,7 +187,7 @@ fn point([u, v]: [f64; 2]) -> String {
     format!("u = {}, v = {}", rounded(u), rounded(v))
 }
 
-/// Rounds `number` down to four digits, unless it is below them by rounding alone.
+/// Rounds `number` down to four digits. A relative error of 1e-9 in it does not lower the result.
 fn rounded_down(number: f64) -> f64 {
     let unit = 10_f64.powf(number.log10().floor() - 3.0);
     (number / unit * (1.0 + 1e-9)).floor() * unit

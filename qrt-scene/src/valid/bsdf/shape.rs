@@ -59,10 +59,10 @@ pub(super) fn map(map: &[Expr; 3]) -> Option<Problem> {
     let root = Path::root().key("map");
     let ticks = ticks();
     let slopes = Slopes::from_map(map);
-    let on_grid = |expr| OnGrid::new(expr, &ticks);
-    let mut components = map.each_ref().map(on_grid);
+    let prepared = |expr| OnGrid::new(expr, &ticks);
+    let mut components = map.each_ref().map(prepared);
     let [mut along_u, mut along_v] =
-        [0, 1].map(|axis: usize| slopes.0.each_ref().map(|slope| on_grid(&slope[axis])));
+        [0, 1].map(|axis: usize| slopes.0.each_ref().map(|slope| prepared(&slope[axis])));
     let mut flat = Vec::new();
     for &u in &ticks {
         for grid in [&mut components, &mut along_u, &mut along_v]
