@@ -14,7 +14,8 @@
 //! Mitsuba's best sampler, and relative to independent samples.
 //!
 //! `-- cover` counts the paths of `weekend.yaml` that each traces in a second of the processor: Mitsuba's
-//! scalar and LLVM variants, and paths of the same number of rays.
+//! scalar and LLVM variants, and paths of the same number of rays. `-- meshes` does so for the knot of
+//! `knot.yaml` with 1,024, 65,536 and a million triangles, where both sample lamps.
 //!
 //! `benches/peers/path_tracing.py` installs Mitsuba, where there is a `python3` that can. First the
 //! bench compares Mitsuba's pictures of exported scenes with those in `tests/references`. Without
@@ -28,7 +29,8 @@ mod common;
 mod curve;
 mod mitsuba;
 
-use common::{Arguments, Promises, processor};
+use common::load::load;
+use common::{Arguments, Promises, knot, mesh, processor};
 use curve::{Curve, Point};
 use mitsuba::{Mitsuba, Truth};
 use qrt::runtime::path_machines::Real;
@@ -59,8 +61,11 @@ const ENOUGH: u64 = 8192;
 /// Settings of the cover: enough paths for the compilation of Mitsuba's code to take little of the time.
 const COVER: [&str; 3] = ["film.width=400", "film.height=225", "sampling.path_bits=6"];
 
+/// Corners of a section of a knot's tube, and sections: 1,024, 65,536 and a million triangles.
+const MESHES: [[u32; 2]; 3] = [[16, 32], [128, 256], [500, 1000]];
+
 fn main() -> ExitCode {
-    common::run(&[("errors", errors), ("cover", cover)])
+    common::run(&[("errors", errors), ("cover", cover), ("meshes", meshes)])
 }
 
 fn errors(arguments: &Arguments, promises: &mut Promises) {
@@ -76,15 +81,49 @@ fn errors(arguments: &Arguments, promises: &mut Promises) {
 
 /// Judges qrt's paths a second on the cover, relative to those of Mitsuba's variants.
 fn cover(_: &Arguments, promises: &mut Promises) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes-yaml/weekend.yaml");
-    let sets = COVER.map(str::to_owned);
-    let scene = front::load(&path, &sets).unwrap_or_else(|report| panic!("{report}"));
-    let real = Real::new(&scene.valid, 1).expect("a valid scene's sequence exists");
-    let theirs = match mitsuba::speeds(&path, &sets, real.paths()) {
+    let scene = load(
+        root(),
+        "scenes-yaml/weekend.yaml",
+        &COVER.map(str::to_owned),
+    );
+    compare_speeds("the cover", &scene, [1.0, 0.5], promises);
+}
+
+/// Judges qrt's paths a second on meshes, relative to those of Mitsuba's variants.
+fn meshes(_: &Arguments, promises: &mut Promises) {
+    for [around, along] in MESHES {
+        let sets = [
+            &*format!("sampling.depths={DEPTHS}"),
+            "sampling.lights=auto",
+            "film.width=256",
+            "film.height=256",
+            "sampling.path_bits=6",
+        ];
+        let sets = sets.map(str::to_owned).to_vec();
+        let obj = knot::torus_knot(around, along);
+        let scene = mesh::with_obj(root(), "scenes-yaml/knot.yaml", &obj, sets);
+        let what = format!("{} triangles", 2 * around * along);
+        compare_speeds(&what, &scene, [1.2, 0.7], promises);
+    }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Judges qrt's paths a second on a scene, as multiples of those of Mitsuba's scalar variant and of its LLVM variant.
+fn compare_speeds(
+    what: &str,
+    scene: &ValidScene,
+    [scalar, llvm]: [f64; 2],
+    promises: &mut Promises,
+) {
+    let real = Real::new(scene, 1).expect("a valid scene's sequence exists");
+    let theirs = match mitsuba::speeds(scene, real.paths()) {
         Ok(speeds) => speeds,
         Err(why) => return promises.judge(&format!("Mitsuba is measured: {why}"), false),
     };
-    let film = scene.valid.scene().film;
+    let film = scene.scene().film;
     let seconds = (0..3).map(|_| {
         let started = processor::seconds();
         picture(&real, film.width, film.height);
@@ -92,17 +131,17 @@ fn cover(_: &Arguments, promises: &mut Promises) {
     });
     let paths = f64::from(film.width * film.height) * real.paths() as f64;
     let ours = paths / seconds.fold(f64::INFINITY, f64::min);
-    println!("qrt: {:.2} million paths a second", ours / 1e6);
+    println!("{what}, qrt: {:.2} million paths a second", ours / 1e6);
     for (variant, speed) in theirs {
-        let least = if variant.starts_with("llvm") {
-            0.5
-        } else {
-            1.0
-        };
         let ratio = ours / speed;
-        println!("Mitsuba, {variant}: {:.2} million", speed / 1e6);
-        let what = format!("the cover: {ratio:.2} of the paths of {variant}, at least {least}");
-        promises.judge(&what, ratio >= least);
+        let least = if variant.starts_with("llvm") {
+            llvm
+        } else {
+            scalar
+        };
+        println!("{what}, Mitsuba, {variant}: {:.2} million", speed / 1e6);
+        let text = format!("{what}: {ratio:.2} of the paths of {variant}, at least {least}");
+        promises.judge(&text, ratio >= least);
     }
 }
 
@@ -127,8 +166,7 @@ fn compare(errors: &[(f64, f64)], seeds: u64, promises: &mut Promises) -> Result
 }
 
 fn scene(name: &str) -> impl Fn(u32) -> ValidScene {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let path = root.join(format!("scenes-yaml/{name}.yaml"));
+    let path = root().join(format!("scenes-yaml/{name}.yaml"));
     move |path_bits| {
         let sets = [
             format!("sampling.depths={DEPTHS}"),

@@ -3,6 +3,7 @@
 use super::curve::{Curve, Point};
 use qrt_lab::mitsuba;
 use qrt_scene::front;
+use qrt_scene::valid::ValidScene;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -138,12 +139,8 @@ pub(crate) fn measure(name: &str, errors: &[(f64, f64)], seeds: u64) -> Result<M
 }
 
 /// Paths a second of the processor that each of Mitsuba's variants traces, by name.
-pub(crate) fn speeds(
-    scene: &Path,
-    sets: &[String],
-    samples: u64,
-) -> Result<Vec<(String, f64)>, String> {
-    let scene = exported(scene, sets)?;
+pub(crate) fn speeds(scene: &ValidScene, samples: u64) -> Result<Vec<(String, f64)>, String> {
+    let scene = written(scene, "speed")?;
     let found = run(&["--speed".as_ref(), samples.to_string().as_ref(), &scene])?;
     let speeds = found.as_object().ok_or("no speeds")?;
     let speeds = speeds.iter();
@@ -156,9 +153,13 @@ pub(crate) fn speeds(
 fn exported(scene: &Path, sets: &[String]) -> Result<PathBuf, String> {
     let loaded = front::load(scene, sets).map_err(|report| report.to_string())?;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
-    let exported = mitsuba::export(&loaded.valid, &stem).map_err(|error| error.to_string())?;
+    written(&loaded.valid, &stem)
+}
+
+fn written(scene: &ValidScene, stem: &str) -> Result<PathBuf, String> {
+    let exported = mitsuba::export(scene, stem).map_err(|error| error.to_string())?;
     // Each scene has its own folder, as one scene may be exported in two ways.
-    let folder = target().join(format!("mitsuba-{}", loaded.valid.fingerprint()));
+    let folder = target().join(format!("mitsuba-{}", scene.fingerprint()));
     let written = || {
         fs::create_dir_all(&folder)?;
         for mesh in &exported.meshes {
