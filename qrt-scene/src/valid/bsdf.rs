@@ -129,8 +129,9 @@ impl MapChecks {
     fn directions(&self, map: &[Expr; 3]) -> &[[f64; 3]] {
         self.directions.get_or_init(|| {
             let ticks = shape::ticks();
-            let at = |_, _, direction, _| direction;
-            on_grid(map, &map[2], (&ticks, &ticks), at)
+            on_grid(map.each_ref(), (&ticks, &ticks), |_, _, direction| {
+                direction
+            })
         })
     }
 }
@@ -148,25 +149,21 @@ impl KnownMap {
     }
 }
 
-/// Returns what `at` makes of each point: of its row and column, of the map's direction there, and of the value of
-/// `other`.
-fn on_grid<T>(
-    map: &[Expr; 3],
-    other: &Expr,
+/// Returns what `at` makes of each point: of its row, its column and the values of `parts` there.
+fn on_grid<T, const N: usize>(
+    parts: [&Expr; N],
     (rows, columns): (&[f64], &[f64]),
-    at: impl Fn(usize, usize, [f64; 3], f64) -> T,
+    at: impl Fn(usize, usize, [f64; N]) -> T,
 ) -> Vec<T> {
-    let mut components = map.each_ref().map(|c| OnGrid::new(c, columns));
-    let mut other = OnGrid::new(other, columns);
+    let mut grids = parts.map(|part| OnGrid::new(part, columns));
     let mut all = Vec::with_capacity(rows.len() * columns.len());
     for (row, &u) in rows.iter().enumerate() {
-        for grid in &mut components {
+        for grid in &mut grids {
             grid.set_u(u);
         }
-        other.set_u(u);
         for column in 0..columns.len() {
-            let direction = components.each_mut().map(|grid| grid.value(column));
-            all.push(at(row, column, direction, other.value(column)));
+            let values = grids.each_mut().map(|grid| grid.value(column));
+            all.push(at(row, column, values));
         }
     }
     all

@@ -273,12 +273,13 @@ fn cells_of(map: &[Expr; 3], projected_jacobian: &Expr, points: u32) -> Vec<Cell
     };
     let ticks: Vec<(f64, f64)> = (0..points).map(tick).collect();
     let places: Vec<f64> = ticks.iter().map(|tick| tick.0).collect();
-    let cell = |row: usize, column: usize, [x, y, z]: [f64; 3], area: f64| Cell {
+    let cell = |row: usize, column: usize, [x, y, z, area]: [f64; 4]| Cell {
         z,
         turn: (libm::atan2(y, x) / TAU).rem_euclid(1.0) * TURNS as f64,
         area: area * ticks[row].1 * ticks[column].1,
     };
-    on_grid(map, projected_jacobian, (&places, &places), cell)
+    let [x, y, z] = map;
+    on_grid([x, y, z, projected_jacobian], (&places, &places), cell)
 }
 
 /// The coverage of a map, by place and by side.

@@ -133,16 +133,17 @@ impl Quadrature {
             let n = 48_u32 << rule;
             let centre = |k| (f64::from(k) + 0.5) / f64::from(n);
             let centres: Vec<f64> = (0..n).map(centre).collect();
-            let sample = |row: usize, column: usize, direction, area: f64| Sample {
+            let sample = |row: usize, column: usize, [x, y, z, area]: [f64; 4]| Sample {
                 at: Variables {
                     u: centres[row],
                     v: centres[column],
                     ..Variables::default()
                 },
-                direction,
+                direction: [x, y, z],
                 area: area / f64::from(n * n),
             };
-            on_grid(map, projected_jacobian, (&centres, &centres), sample)
+            let [x, y, z] = map;
+            on_grid([x, y, z, projected_jacobian], (&centres, &centres), sample)
         })
     }
 
