@@ -77,7 +77,7 @@ fn parts_merge_to_the_files_of_one_render() {
         (BOX, 1, &["--estimator", "exact"]),
         (BOX, 5, &["--estimator", "exact", "--seed", "7"]),
         // Each part is one pixel.
-        (BOX, 20, &["--estimator", "paper", "--crop", "3,2,5,4"]),
+        (BOX, 6, &["--estimator", "paper", "--crop", "3,2,3,2"]),
         (&aiming(), 4, &["--estimator", "adaptive-bayes"]),
         (
             &aiming(),

@@ -6,7 +6,7 @@ use qrt::scene::front;
 use std::path::Path;
 
 /// Width and height of the picture, whose mean has the standard error RMSE/SIDE.
-const SIDE: u32 = 64;
+const SIDE: u32 = 32;
 
 /// Errors of a picture's channels.
 struct Errors {
@@ -61,7 +61,7 @@ fn errors(scene: &str, estimator: Estimator, phase_bits: u32) -> Errors {
 }
 
 /// The measurement has a deviation of 0.58 standard errors of the picture's mean, of which the test allows three
-/// in addition to one. Under a prior that is even in the amplitude the Cornell box has 16 with 63 queries.
+/// in addition to one. Under a prior that is even in the amplitude the Cornell box has 8 with 63 queries.
 #[test]
 fn a_picture_counted_with_few_queries_is_as_bright_as_it_is() {
     for scene in ["cornell-box", "lit-box"] {

@@ -71,7 +71,7 @@ fn measured(scene: &ValidScene) -> [f64; 2] {
 /// Checks that all ways find the same light, within their spread and the cells of coordinates.
 fn agree(name: &str, material: &str, lamps: &str, map: &str, ways: &[&str]) {
     let of = |bits, way| measured(&room(material, lamps, BLOCK, &sampling(bits, way, map)));
-    let [truth, error] = of(15, "none");
+    let [truth, error] = of(14, "none");
     assert!(truth > 0.0, "{name}");
     for way in ways {
         let [found, own] = of(10, way);

@@ -221,7 +221,7 @@ fn lamps_light_smooth_meshes_as_rays_that_meet_them_do() {
         let scene = room(&shape, material, depths, &[lights, bits]);
         seen(&scene, Model::Real)
     };
-    let found = picture(UNLIT, "sampling.lights=none", "sampling.path_bits=16");
+    let found = picture(UNLIT, "sampling.lights=none", "sampling.path_bits=14");
     for lights in ["auto", "mis", "next-event"] {
         let lights = format!("sampling.lights={lights}");
         let lit = picture(LIT, &lights, "sampling.path_bits=10");
