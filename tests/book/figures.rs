@@ -77,7 +77,6 @@ fn drawings_and_plots_are_made_again_byte_by_byte() {
 }
 
 #[test]
-#[ignore = "half a minute: pictures of scenes that other tests compare with an independent renderer's"]
 fn pictures_are_made_again_pixel_by_pixel() {
     compared(is_picture);
 }

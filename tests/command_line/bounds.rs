@@ -199,7 +199,7 @@ fn very_many_bsdfs_are_checked_or_refused_and_end_at_an_interrupt() {
     let many: Vec<String> = (0..500).map(flat).collect();
     fs::write(folder.path("many.yaml"), scene(&many, 1, &rays(2, 2))).unwrap();
     let (many, _) = used(&folder, 0, &["render", "many.yaml", "-q", "-o", "p.exr"]);
-    println!("{:.2} ms for each", many.seconds / 0.5);
+    println!("{:.2} ms for each", 1e3 * many.seconds / 500.0);
 
     // Values of the greatest length.
     let longest = |number: usize| {
